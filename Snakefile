@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
 from workflow.lib.files import in_one_line
 from workflow.pipeline.lock import lock_products
@@ -27,7 +28,7 @@ from workflow.pipeline.plan import (
     runs_of,
     stem_of,
 )
-from workflow.pipeline.program import BuildError, command_line, require_built, threads_of
+from workflow.pipeline.program import command_line, require_built, threads_of
 
 clean()
 QUALITY = config.get("quality", "standard")

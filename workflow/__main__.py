@@ -16,16 +16,17 @@ import sys
 from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
-from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.configuration import ConfigurationError, panel_names
+from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
     OVERRIDES,
     Selection,
     load_plan,
-    panel_named,
     products_of,
     report_stem,
+    require_panel,
     stem_of,
 )
 from workflow.pipeline.program import build
@@ -96,16 +97,19 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 
 def prepare(target: str, options: argparse.Namespace) -> None:
     """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`; compiles the programs if the
-    target needs them. Raises UsageError, ConfigurationError, OSError."""
+    target needs them. Raises UsageError, ConfigurationError, BuildError, OSError."""
     efforts = [f"{name}={value}" for name in OVERRIDES if (value := getattr(options, name))]
     options.quality = "_".join([options.quality, *efforts])
     options.effort = Selection.of(options.quality).arguments
     require_profile(options.profile)
+    options.panels = options.panel.split()
+    known = panel_names() if options.panels else []
+    for name in options.panels:
+        require_panel(name, known)
     if target in COMPILED and not options.dry:
         lock_products()
         build()
     options.plan = load_plan(options.quality)
-    options.panels = [panel_named(options.plan, name).name for name in options.panel.split()]
 
 
 def require_profile(profile: str) -> None:
@@ -192,9 +196,9 @@ def main() -> int:
         name = "audit" if target == "status" else target
         module = importlib.import_module(f"workflow.pipeline.provenance.{name}")
         return int(module.main(options) or 0)
-    except (UsageError, ConfigurationError) as error:
+    except (UsageError, ConfigurationError, BuildError) as error:
         print(error, file=sys.stderr)
-        return 2
+        return 1 if isinstance(error, BuildError) else 2
     except subprocess.CalledProcessError:  # which has printed why
         return 1
     except OSError as error:

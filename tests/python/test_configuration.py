@@ -68,9 +68,17 @@ MISTAKES = [
     ("panels:", "panel:", "1:1: panel: unknown key; did you mean panels?"),
     ("{replicas: 4}", "{error: 2}", "default.error: 2 is invalid; allowed: a number greater than 0 and less"),
     ("dense: {replicas", "dense: {sigma", "dense.sigma: belongs into paper.yaml"),
-    ("dense: {replicas", "denser: {replicas", "panels.mu.denser: unknown key; did you mean dense?"),
-    ("dense: {replicas: 2}", "omit: [densest]", '"densest" is unknown; did you mean dense?'),
-    ("  mu: {", "  moo: {", "panels.moo: unknown key; "),
+    (
+        "dense: {replicas",
+        "denser: {replicas",
+        "mu.denser: is not in paper.yaml as a series of mu: remove it here; did you mean dense?",
+    ),
+    (
+        "dense: {replicas: 2}",
+        "omit: [densest]",
+        '"densest" is not in paper.yaml as a series of mu: remove it here; did you mean dense?',
+    ),
+    ("  mu: {", "  moo: {", "panels.moo: is not in paper.yaml as a panel: remove it here; "),
 ]
 
 

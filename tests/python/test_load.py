@@ -7,6 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+import xarray
 
 from tests.python.conftest import Program
 from workflow.lib.identity import result_identity
@@ -106,6 +107,17 @@ def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: 
             read(path)
         assert str(error.value).startswith(f"{path}{words}")
         assert "\n" not in str(error.value)
+
+
+def test_a_result_that_is_open_elsewhere_in_the_process(path: Path) -> None:
+    before = load(path)["flux"].to_xarray()
+    with xarray.open_dataset(path, group=FLUX, engine="h5netcdf"):
+        assert load(path)["flux"].to_xarray().identical(before)
+
+
+def test_a_file_that_cannot_be_opened_is_not_called_damaged(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="Is a directory"):
+        load(tmp_path)
 
 
 @pytest.mark.parametrize("name", ["mean", "standard_error", "count", "momentum"])

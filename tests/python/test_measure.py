@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
@@ -43,6 +44,16 @@ def test_points_have_seeds_of_their_own(folder: Path) -> None:
         assert len({load(path).parameters["seed"] for path in folder.glob("*.h5")}) == number
         for path in folder.glob("*.h5"):
             path.unlink()
+
+
+def test_a_result_that_was_edited_is_measured_again(folder: Path) -> None:
+    before = measure("steady_profile", **SMALL)["density"].to_dataset()
+    (path,) = folder.glob("*.h5")
+    with h5py.File(path, "r+") as file:
+        file["results/density/mean"][...] *= 1.001
+    with pytest.warns(UserWarning, match="edited"):
+        again = measure("steady_profile", **SMALL)["density"].to_dataset()
+    assert again.identical(before)
 
 
 @pytest.mark.parametrize(

@@ -116,6 +116,8 @@ def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(pr
     assert project.workflow("build").startswith("Compiling 1 program")
     append("cpp/statistics/fit.hpp", "int x;\n")(project)
     assert project.workflow("build").startswith("Compiling 2 programs")
+    mistyped = project.workflow("panel", "PANEL=mo", status=2)  # nothing is compiled before
+    assert mistyped == "mo is not a panel; choose one of mu, energy\n"
 
 
 def test_wrong_results_are_refused_and_the_same_command_makes_them_again(project: Project) -> None:
@@ -142,7 +144,34 @@ def test_wrong_results_are_refused_and_the_same_command_makes_them_again(project
 
 def test_a_script_that_imports_another_is_refused(project: Project) -> None:
     text("workflow/figures/mu.py", "import pandas as pd\n", "import pandas as pd\nfrom workflow.figures import energy\n")(project)  # fmt: skip
-    assert "imports the script workflow.figures.energy" in project.entry("panel", "PANEL=mu", status=1)
+    assert "mu.py uses workflow/figures/energy.py" in project.entry("panel", "PANEL=mu", status=1)
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        'import numpy as np\nfrom workflow.lib.figure import main\nnp.loadtxt("data/points.csv")\n',
+        'import h5py\nfrom workflow.lib.figure import main\nh5py.File("data/points.csv")\n',
+    ],
+)
+def test_a_file_that_a_script_reads_is_declared_and_then_part_of_the_panel(
+    project: Project, read: str
+) -> None:
+    (project.folder / "data/points.csv").write_text("1")
+    if "h5py" in read:
+        h5py.File(project.folder / "data/points.csv", "w").close()
+    text("workflow/figures/mu.py", "from workflow.lib.figure import main\n", read)(project)
+    assert "reads: [data/points.csv]" in project.entry("panel", "PANEL=mu", status=1)
+    assert not [*project.folder.glob("figures/smoke/mu.*.csv")]
+    text(PAPER, "  mu:\n", "  mu:\n    reads: [data/points.csv]\n")(project)
+    project.entry("figures")
+    assert project.stale() == set()
+    with (project.folder / "data/points.csv").open("ab") as file:
+        file.write(b"2")
+    assert project.stale() == {"mu"}
+    assert "changed: data/points.csv" in project.entry("status", status=1)
+    (project.folder / "data/points.csv").unlink()
+    assert "data/points.csv is not a file" in project.entry("status", status=2)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])

@@ -90,6 +90,14 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")], "status", 1,
         [("edited", "figures/smoke/mu.csv", "differs from its hash"), ("missing", "figures/smoke/energy.svg", "")],
     ),
+    "back to former sources": (
+        [
+            substitute("workflow/figures/mu.py", "A test", "Another"),
+            lambda project: project.entry("figures"),
+            substitute("workflow/figures/mu.py", "Another", "A test"),
+        ],
+        "status", 1, [("stale", "figures/smoke/mu.pdf", "that of other sources")],
+    ),
     "sources and options": (
         [
             substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include"),
@@ -140,15 +148,15 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     seeds = [load(project.one(path)).parameters["seed"] for path in (MU, OTHER_MU)]
     copy = Path(shutil.copy(project.folder / "figures/smoke/mu.png", tmp_path / "my talk.png"))
     printed = provenance(project, copy)
-    assert printed.startswith("panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n")
-    assert "unmodified, made from 6 files" in printed
+    assert printed.startswith(
+        "unmodified, fresh\npanel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n"
+    )
     assert all(f"--seed {seed}" in printed for seed in seeds)
     copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
     substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
     printed = provenance(project, copy, status=1)
-    assert "edited, made from 6 files" in printed
-    assert "workflow/lib differs here" in printed
+    assert printed.startswith("edited, stale: changed: workflow/lib, results\n")
     assert "sources of persistence differ here" in printed
     remove(RECORD)(project)
     assert "panel mu, quality smoke" in provenance(project, copy, status=3)
@@ -157,10 +165,17 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
 def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -> None:
     copy = Path(shutil.copy(project.one(MU), tmp_path / "mine.h5"))
     printed = provenance(project, copy)
-    assert "panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke" in printed
+    assert printed.startswith(
+        "unmodified, fresh\npanel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n"
+    )
     assert load(copy).provenance["words"] in printed
+    substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
+    assert provenance(project, copy).startswith("unmodified, stale: sources of persistence")
     edit_value(project)
     assert "edited" in provenance(project, project.one(MU), status=1)
+    remove("build/describe/*")(project)
+    assert "run make build first" in provenance(project, copy, status=1)
+    assert len(project.entry("status", status=1).splitlines()) == 1
 
 
 def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
@@ -231,7 +246,11 @@ def test_prune_removes_what_no_plan_names_and_no_file_of_the_user(project: Proje
 
 
 def test_a_deposit_renders_elsewhere_without_simulation(project: Project, tmp_path: Path) -> None:
-    """There is no program where it is unpacked."""
+    """There is no program where it is unpacked, but their descriptions, and a file that git ignores."""
+    write("data/points.csv")(project)
+    substitute("workflow/config/paper.yaml", "  mu:\n", "  mu:\n    reads: [data/points.csv]\n")(project)
+    project.entry("figures")
+    project.entry("prune")
     commit(project)
     write("notes.txt")(project)
     project.entry("deposit")
@@ -241,11 +260,8 @@ def test_a_deposit_renders_elsewhere_without_simulation(project: Project, tmp_pa
     subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=there.folder, check=True)
     assert not (there.folder / "notes.txt").exists()
     shutil.copytree(project.folder / ".venv", there.folder / ".venv", symlinks=True)
-    descriptions = there.folder / "build/describe"  # by make build, before make figures
-    shutil.copytree(ROOT / "build/describe", descriptions)
-    assert there.stale() == set()
-    shutil.rmtree(there.folder / "build")
-    shutil.copytree(ROOT / "build/describe", descriptions)
+    assert "all hold" in there.entry("status")
+    shutil.rmtree(there.folder / "build/figures")
     there.entry("figures")
     assert there.products() == project.products()
     write("workflow/figures/mine.py")(project)

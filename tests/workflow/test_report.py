@@ -4,6 +4,7 @@ import csv
 import re
 import shutil
 from collections import defaultdict
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -90,6 +91,19 @@ def test_the_gallery_is_written_from_unmodified_results_only(gallery: Path, copy
         file["results/mu/mean"][...] *= 1.001
     with pytest.raises(FormatError, match=r"fig05/.* edited or damaged: .* remove it and make it again"):
         write("smoke", None, copy)
+
+
+def test_series_and_panels_of_the_user_count_for_no_claim(smoke: Path) -> None:
+    """Their results are missing: a claim that needed one would state it."""
+    data, other = Data("smoke", smoke), Data("smoke", smoke)
+    other.plan = {}
+    for name, panel in data.plan.items():
+        mine = tuple(replace(run, name=f"mine_{run.name}", series="mine") for run in panel.runs)
+        other.plan |= {
+            f"my_{name}": replace(panel, name=f"my_{name}"),
+            name: replace(panel, runs=mine + panel.runs),
+        }
+    assert repr(judge_all(other)) == repr(judge_all(data))
 
 
 def test_no_quality_contradicts_another(smoke: Path, gallery: Path) -> None:

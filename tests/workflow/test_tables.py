@@ -10,15 +10,20 @@ import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
 
+from tests.python.conftest import ROOT
 from tests.python.known_results import plan
 from tests.python.scale import OTHER, ROUNDING, agree
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
-from workflow.lib.load import NOT_REACHED, load
+from workflow.lib.load import NOT_REACHED, Result, load
 from workflow.lib.units import UnitsError
 from workflow.pipeline.plan import data_of
+from workflow.pipeline.results import load_panel
 
-PLAN = {name: panel for name, panel in plan("smoke").items() if panel.runs or panel.uses}
+SHIPPED = {path.stem for path in (ROOT / "docs/gallery").glob("*.png")}  # not those of the user
+PLAN = {
+    name: panel for name, panel in plan("smoke").items() if name in SHIPPED and (panel.runs or panel.uses)
+}
 
 
 def stated(folder: Path, panel: str) -> tuple[dict[str, str], str]:
@@ -70,6 +75,38 @@ def test_every_column_scales_as_its_units_and_every_panel_has_a_caption(smoke: P
         mutant = "energy" if text in ("1", "second") else "1"
         seen = plain[name].abs().max() > 0
         assert scales(smoke, panel, name, mutant) != seen, name
+
+
+def of_the_user(result: Result, number: int) -> Result:
+    """A result of another series, whose options agree with those of no shipped one."""
+    other = {"cells": 22, "sigma": 0.25, "gamma": 3, "particles-per-cell": 40, "rule": "reversal"}
+    changed = {name: value for name, value in other.items() if name in result.parameters}
+    path = result.path.with_name(f"mine_cells={number}.h5")
+    return replace(result, path=path, parameters=result.parameters | {"reversal-probability": 0.2} | changed)
+
+
+@pytest.mark.parametrize("panel", PLAN)
+def test_another_series_is_plotted_or_named_and_changes_nothing_else(smoke: Path, panel: str) -> None:
+    draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
+    given = [*load_panel(panel, "smoke").values()]
+    own = [result for result in given if result.path.parent == given[-1].path.parent]
+    mine = [of_the_user(result, number) for number, result in enumerate(own)]
+    _, table, caption = draw(given)
+    figure, with_mine, other_caption = draw([*given[: -len(own)], *mine, *own])
+    if other_caption == f"{caption} Not shown: mine.":
+        pd.testing.assert_frame_equal(with_mine, table)
+    else:
+        assert "mine" in str([text.get_text() for legend in figure.legends for text in legend.get_texts()])
+    plt.close("all")
+
+
+def test_a_figure_is_drawn_in_another_style(smoke: Path, tmp_path: Path) -> None:
+    draw = importlib.import_module("workflow.figures.fig08").draw
+    with plt.rc_context({"axes.labelsize": 17}):
+        figure, table, _ = draw(load_panel("fig08", "smoke").values())
+        figure.savefig(tmp_path / "talk.pdf")
+    assert {axes.xaxis.label.get_size() for axes in figure.axes} == {17}
+    assert len(table) == len(pd.read_csv(smoke / "figures/smoke/fig08.csv", comment="#"))
 
 
 def test_columns_without_units_are_refused() -> None:

@@ -26,13 +26,13 @@ def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
 
 def persistence_limits(data: Data) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at sigma = -1, 0 and 1."""
-    runs = data.of("fig05", particles_per_cell=20)
+    runs = data.of("fig05", "paper")
     return _from_law([run for run in runs if run.parameters["sigma"] in (-1, 0, 1)])
 
 
 def persistence_in_dense_chain(data: Data) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at every sigma in a chain of many particles per cell."""
-    return _from_law(data.of("fig05", particles_per_cell=320))
+    return _from_law(data.of("fig05", "dense"))
 
 
 def _from_law(results: list[Result]) -> list[Estimate]:
@@ -47,12 +47,12 @@ def _from_law(results: list[Result]) -> list[Estimate]:
 
 def persistent(data: Data) -> list[Estimate]:
     """mu at the sigma of the paper's other figures."""
-    return _named(data.of("fig05", particles_per_cell=20, sigma=0.5), "mu", "μ")
+    return _named(data.of("fig05", "paper", sigma=0.5), "mu", "μ")
 
 
 def waiting_half(data: Data) -> list[Estimate]:
     """Exponent of the waiting times at sigma = 1/2. Its change with the relaxation time is a systematic error."""
-    runs = [run for run in data.of("ext07", "waiting_time") if run.parameters["relaxation-time"] >= 10]
+    runs = [run for run in data.of("ext07", "waiting") if run.parameters["relaxation-time"] >= 10]
     return [with_systematic(_waiting(data, 0.5), [float(run["exponent"].mean) for run in runs])]
 
 
@@ -62,25 +62,25 @@ def waiting_zero(data: Data) -> list[Estimate]:
 
 def _waiting(data: Data, sigma: float) -> Estimate:
     """Exponent of the waiting times. Its spread over cuts of the tail within a factor of three is a systematic error."""
-    (result,) = data.of("fig06", sigma=sigma)
+    result, *_ = data.of("fig06", "all", sigma=sigma)
     exponent = estimate(result, "exponent", label="exponent of Ψ(τ)")
     return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
 
 
 def spreading_half(data: Data) -> list[Estimate]:
     """alpha at sigma = 1/2. Its change with the relaxation time is a systematic error."""
-    (result,) = data.of("fig07", cells=11, zero_total_momentum=False)
+    result, *_ = data.of("fig07", "all", sigma=0.5)
     return [with_systematic(estimate(result, "alpha", label="α, σ = 0.5"), _relaxed(data, 0.5))]
 
 
 def spreading_zero(data: Data) -> list[Estimate]:
     """alpha at sigma = 0. Its change with the relaxation time is a systematic error."""
-    (result,) = data.of("fig07_inset", sigma=0, zero_total_momentum=False)
+    result, *_ = data.of("fig07_inset", "all", sigma=0)
     return [with_systematic(estimate(result, "alpha", label="α, σ = 0"), _relaxed(data, 0))]
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    runs = data.of("ext01", sigma=sigma, particles_per_cell=20, zero_total_momentum=False, rule="elastic")
+    runs = data.of("ext01", "paper", sigma=sigma, zero_total_momentum=False)
     return [float(run["alpha"].mean) for run in runs]
 
 
@@ -95,19 +95,19 @@ def spreading_without_drift(data: Data) -> list[Estimate]:
 
 
 def _spreading(data: Data, *, zero_total_momentum: bool) -> list[Estimate]:
-    runs = data.of("fig07_inset", zero_total_momentum=zero_total_momentum)
+    runs = data.of("fig07_inset", "zero-momentum" if zero_total_momentum else "all")
     name = "α at zero total momentum" if zero_total_momentum else "α"
     return _named([run for run in runs if run.parameters["sigma"]], "alpha", name)
 
 
 def random_directions(data: Data) -> list[Estimate]:
-    return _named(data.of("ext01", rule="random-direction"), "alpha", "α")
+    return _named(data.of("ext01", "random", "random-dense"), "alpha", "α")
 
 
 def momentum_changes(data: Data) -> list[Estimate]:
     """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. Changes below
     the rounding error are replaced by it."""
-    runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
+    runs = [run for run in data.of("fig07_inset", "all", "zero-momentum") if run.parameters["sigma"]]
     changes = []
     for drift in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
         change = max(drift.value, sys.float_info.epsilon)

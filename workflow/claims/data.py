@@ -24,31 +24,32 @@ class Data:
         self.plan = load_plan(quality)
         self.loaded: dict[str, Result] = {}  # loaded results by path
 
-    def of(self, panel: str | None = None, program: str | None = None, **parameters: object) -> list[Result]:
-        """The results of a panel's own runs, or of all panels' runs, with this program and these parameters (underscores for dashes). Raises
-        MissingError if there are none, FormatError, OSError."""
+    def of(self, panel: str, *series: str, **parameters: object) -> list[Result]:
+        """The results of series of a panel with these parameters (underscores for dashes). Other series, as those of the user, do not count.
+        Raises MissingError if there are none, FormatError, OSError."""
         wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
         results = []
-        for name in [panel] if panel else self.plan:
-            for run in self.plan[name].runs:
-                planned = program in (None, run.program)
-                if planned and all(run.options.get(key, value) == value for key, value in wanted.items()):
-                    results.append(self._load(name, run))
+        for run in (run for run in self._runs(panel) if run.series in series):
+            if all(run.options.get(key, value) == value for key, value in wanted.items()):
+                results.append(self._load(panel, run))
         found = [
             result
             for result in results
             if all(result.parameters.get(key) == value for key, value in wanted.items())
         ]
         if not found:
-            raise MissingError(f"no run of {panel or program} with {wanted} at quality {self.quality}")
+            raise MissingError(f"no {' or '.join(series)} of {panel} with {wanted} at quality {self.quality}")
         return found
 
     def one(self, panel: str, run: str) -> Result:
         """The result of a run of the panel, by its name. Raises MissingError, FormatError, OSError."""
-        for planned in self.plan[panel].runs:
+        for planned in self._runs(panel):
             if planned.name == run:
                 return self._load(panel, planned)
         raise MissingError(f"{panel} has no run {run} at quality {self.quality}")
+
+    def _runs(self, panel: str) -> tuple[Run, ...]:
+        return self.plan[panel].runs if panel in self.plan else ()
 
     def _load(self, panel: str, run: Run) -> Result:
         path = data_path(self.quality, panel, run)

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 from scipy.special import erf
 
 from workflow.claims.data import Data, combination, estimate, freedom, ratio
@@ -22,13 +23,11 @@ OTHERWISE = 1e-3
 
 def equilibrium(data: Data) -> list[Estimate]:
     """Between equal baths: moments of the outgoing flux and of the end scatterers, relative to the Gaussian, and Kolmogorov distances."""
-    numbers = []
+    numbers, baths = [], dict.fromkeys(("temperature_left", "temperature_right"), EQUAL)
     for gamma in (1, "N"):
         flux, profile = (
-            data.of(
-                program=program, gamma=gamma, nu_left=RATE, temperature_left=EQUAL, temperature_right=EQUAL
-            )[0]
-            for program in ("momentum_flux", "steady_profile")
+            data.of("fig04b", f"equilibrium-{kind}", gamma=gamma, nu_left=RATE, **baths)[0]
+            for kind in ("flux", "profile")
         )
         for end, half, name in OUTGOING:
             square = estimate(flux, "square", (end, half), f"⟨p²⟩/T - 1, {name}, γ = {gamma}")
@@ -93,10 +92,15 @@ def _magnitude(number: Estimate) -> Estimate:
     return replace(number, value=abs(number.value))
 
 
+def _finite(data: Data) -> tuple[pd.DataFrame, float]:
+    """Deviations of finite chains from the kinetic equation, and the degrees of freedom of their errors."""
+    simulated = data.of("fig03_inset", "simulation")
+    return deviations(simulated + data.of("fig03_inset", "continuum", "mean-field")), freedom(*simulated)
+
+
 def deviations_over_bounds(data: Data) -> list[Estimate]:
     """F_N - F of the outgoing particles over the printed bound, in every bin within REACH; bins beyond contain too few particles."""
-    rows = deviations(data.of("fig03_inset"))
-    degrees = freedom(*data.of("fig03_inset", "momentum_flux"))
+    rows, degrees = _finite(data)
     scale = float((rows.absolute_as_printed / rows.deviation).median())
     numbers = []
     for row in rows[(rows.kind == SIMULATION) & (rows.momentum.abs() < REACH)].itertuples():
@@ -109,7 +113,7 @@ def deviations_over_bounds(data: Data) -> list[Estimate]:
 def deviations_central(data: Data) -> list[Estimate]:
     """Deviations at N = 2, where they are largest: those beyond the thermal momentum against those of the two central bins, and the odd part
     of the central ones over their mean magnitude."""
-    table, degrees = deviations(data.of("fig03_inset")), freedom(*data.of("fig03_inset", "momentum_flux"))
+    table, degrees = _finite(data)
     temperature = np.mean(data.one("fig03_inset", "simulation_cells=2").ends("temperature"))
     part = table[(table.kind == SIMULATION) & (table.cells == 2)].sort_values("momentum")
     momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))

@@ -19,7 +19,14 @@ BULK = 16  # cells; shorter chains are dominated by their ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 LONG = 128  # cells; in shorter chains the exponents over the largest sizes still change
 LATE = 64  # time in λ/√T from which the exponents of rings are judged: earlier ones still fall
-FIXED_SPACING = 0.1  # spacing of chains that have a thermodynamic limit
+# Series: of fig. 8 by γ, of ext. 13 with the paper's rule, and of ext. 11 at the spacing that has a thermodynamic limit.
+SIZES: dict[str | int, tuple[str, ...]] = {"N": ("deterministic", "large"), 1: ("rare", "rare-small")}
+ELASTIC = tuple(
+    f"{gas}{size}" for gas in ("light", "dense", "dilute", "sparse") for size in ("", "-long", "-longest")
+)
+FIXED_SPACING = tuple(
+    f"dense-{force}{size}" for force in ("temperature", "pressure") for size in ("", "-large")
+)
 
 
 def linear(data: Data) -> list[Estimate]:
@@ -38,7 +45,7 @@ def of_largest(data: Data, gamma: str | int) -> Estimate:
 
 def sizes(data: Data, gamma: str | int) -> list[Result]:
     """Stationary runs of fig. 8 at the paper's spacing, by N."""
-    return _stationary(data.of("fig08", "conductivity", gamma=gamma, rule="elastic", cell_length="1/N"))
+    return _stationary(data.of("fig08", *SIZES[gamma]))
 
 
 def _stationary(runs: Iterable[Result]) -> list[Result]:
@@ -77,7 +84,7 @@ def superdiffusive(data: Data) -> list[Estimate]:
     """beta of <Q²> ∼ t^beta, of every gas from t = LATE on in its longest ring. The errors of both ends are taken as independent, which
     overestimates that of their ratio."""
     numbers = []
-    for ring in _longest(data.of("ext13", rule="elastic")):
+    for ring in _longest(data.of("ext13", *ELASTIC)):
         times = ring["heat_variance"].axes["time"]
         first = int(np.searchsorted(times, LATE))
         early, late = (estimate(ring, "heat_variance", k) for k in (first, -1))
@@ -89,16 +96,16 @@ def superdiffusive(data: Data) -> list[Estimate]:
 def at_fixed_density(data: Data) -> list[Estimate]:
     """Exponents of kappa at a density that does not depend on N: beta - 1 in rings, and those of kappa_0 between baths over all sizes and over
     the last octave."""
-    rings = _of_kappa(data.of("ext13", rule="elastic"))
+    rings = _of_kappa(data.of("ext13", *ELASTIC))
     return [*rings, without_particle_current(data), without_particle_current(data, last=2)]
 
 
 def without_momentum(data: Data) -> list[Estimate]:
     """Exponents of kappa where a fraction of the collisions reverses the scatterer and so breaks the conservation of momentum: beta - 1 in the
     longest ring of every fraction, and that of kappa between the two largest sizes of chains between baths, as far as they are measured."""
-    slopes = _of_kappa(data.of("ext13", rule="reversal"))
+    slopes = _of_kappa(data.of("ext13", "reversal", "reversal-rare"))
     chains: dict[float, list[Result]] = {}
-    for run in _with_bulk(_stationary(data.of("fig08", "conductivity", rule="reversal"))):
+    for run in _with_bulk(_stationary(data.of("fig08", "reversal"))):
         chains.setdefault(run.parameters["reversal-probability"], []).append(run)
     pairs = {probability: runs[-2:] for probability, runs in chains.items() if len(runs) > 1}
     return slopes + [
@@ -140,7 +147,7 @@ def _last_time(ring: Result) -> float:
 def without_particle_current(data: Data, last: int | None = None) -> Estimate:
     """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over all sizes or over the `last` largest. The
     exponents over the smaller and over the larger half bound the systematic error."""
-    planned = data.of("ext11", "conductivity", cell_length=FIXED_SPACING)
+    planned = data.of("ext11", *FIXED_SPACING)
     moving = {run.parameters["cells"] for run in planned if run["stationary"].mean != 1}
     runs = [run for run in planned if run.parameters["cells"] not in moving]
     table = tabulate(runs) if runs else None

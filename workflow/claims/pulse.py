@@ -24,7 +24,8 @@ from workflow.physics.peaks import (
 from workflow.physics.rings import chain
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
-HEAT = "heat"  # runs of ext. 3 for the heat peak
+SOUND = ("light", "light-long", "dense", "dense-long")  # series of ext. 3 for the sound peaks
+HEAT = "heat"  # and for the heat peak
 WIDE = 6  # cells; narrower heat peaks are not fitted
 PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
 LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
@@ -68,7 +69,7 @@ def ballistic(data: Data) -> list[Estimate]:
 
 def ballistic_later(data: Data) -> list[Estimate]:
     """The same in a ring ten times as long at later times, where the width of the cell in which the pulse begins no longer counts."""
-    (ring,) = data.of(program="energy_pulse", gamma=1, cells=1001)
+    ring = data.one("fig10b", "long")
     return [_way(ring)]
 
 
@@ -104,7 +105,7 @@ def damping(data: Data) -> list[Estimate]:
 
 def damping_of_sound(data: Data) -> list[Estimate]:
     """Damping exponent of the sound peak in equilibrium, of the longest record."""
-    rings = [ring for ring in data.of("ext03", "correlation") if not ring.run.startswith(HEAT)]
+    rings = data.of("ext03", *SOUND)
     longest = max(rings, key=lambda ring: float(ring["peak"].axes["time"][-1]))
     return [_of_all_times(longest, f"sound peak in equilibrium, N = {longest.parameters['cells']}")]
 
@@ -146,7 +147,7 @@ def heat_peak(data: Data) -> list[Estimate]:
     """Order 1/xi of the stable law fitted to the heat peak in equilibrium, at every time at which the peak is several cells wide. The errors are
     those of a jackknife over equal runs, as neighbouring cells are correlated; the change without the central cells, in which slow
     particles make a cusp, is a systematic error. Raises MissingError."""
-    runs = [run for run in data.of("ext03", "correlation") if run.run.startswith(HEAT)]
+    runs = data.of("ext03", HEAT)
     if len(runs) < 2:
         raise MissingError("ext03 has fewer than two runs of the heat peak")
     gas, orders = chain(runs[0]), []

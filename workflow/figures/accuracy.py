@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import listed
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import FormatError, Result
 
 LOOKS = {
@@ -132,6 +132,7 @@ def gain(table: pd.DataFrame, program: str) -> float:
     return float((most.error[plain].item() / most.error[~plain].item()) ** 2)
 
 
+@plots("conductivity spreading persistence heat kinetic")
 def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     sampled, kinetic = (part for _, part in table.groupby(table.program == "boltzmann"))

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters, rule
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
@@ -80,6 +80,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         shaded window of all runs, is at least {least} with random total momentum, at most {none} with none and {random} with random directions. {ERRORS}"""
 
 
+@plots("paper dense dense-drift random random-dense")
 def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     sigmas = sorted(table.sigma.unique())

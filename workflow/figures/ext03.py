@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import format_number
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.mode_coupling import f_kpz, levy
@@ -204,6 +204,7 @@ def draw_orders(axes: Axes, law: pd.DataFrame) -> None:
     axes.legend(loc="upper right")
 
 
+@plots("light light-long dense dense-long heat")
 def draw(results: Sequence[Result]) -> Drawn:
     all_records = records(results)
     table = tabulate(all_records)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import fit_line, format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -90,9 +90,10 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
         end cells; lines: a + b ln N from N = {FITTED} on, b = {listed(map(format_with_error, slopes.slope, slopes.slope_error))}. {ERRORS}"""
 
 
+@plots("deterministic rare size")
 def draw(results: Sequence[Result]) -> Drawn:
-    profiles = [result for result in results if result.parameters["cells"] == 30]
-    sizes = [result for result in results if setting.gamma(result) == "1"]
+    profiles = [result for result in results if result.series != "size"]
+    sizes = [result for result in results if result.series != "deterministic"]
     sizes.sort(key=lambda result: result.parameters["cells"])
     figure, (raw, deviations, excess) = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
     tables = []

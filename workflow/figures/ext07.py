@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.closed import quasi_stationary
@@ -113,6 +113,7 @@ def caption(ageing: Sequence[Result], slopes: pd.DataFrame, spreading: pd.DataFr
         (c) Exponent α of the spreading at zero total momentum, {format_with_error(end.value, end.error)} at the end. {ERRORS}"""
 
 
+@plots("energy long few persistence waiting spreading")
 def draw(results: Sequence[Result]) -> Drawn:
     ageing = contents(results)
     figure, panels = plt.subplot_mosaic(

@@ -13,7 +13,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, parameters
-from workflow.lib.figure import Drawn, main, require_elastic
+from workflow.lib.figure import Drawn, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.conductivity import LOOKS, by_spacing, drive, gas, spacings, tabulate
@@ -22,6 +22,9 @@ from workflow.physics.response import DENSE, Mean, response
 
 TOP = 1.15  # upper end of the axis over the largest value
 THINNING = "thinning"
+OPEN = "thinning thinning-large dense dense-large "  # of ext. 9
+FORCES = "thinning-temperature dense-temperature dense-temperature-large thinning-pressure dense-pressure dense-pressure-large "
+CLOSED = "ring-16 ring-32 ring-64 ring-128 ring-256 dense dense-long dense-longest dilute dilute-long dilute-longest"  # and ext. 13
 BESIDE = 1.07  # ratio of the abscissas of open and full symbols, so that they do not overlap
 
 
@@ -47,6 +50,7 @@ def caption(table: pd.DataFrame, tau: Mean, weak: Sequence[Result], strong: Sequ
         {format_number(drive(strong[0]))}.{crosses} {ERRORS}"""
 
 
+@plots(OPEN + FORCES + CLOSED)
 def draw(results: Sequence[Result]) -> Drawn:
     open_chains = [result for result in results if "nu-left" in result.parameters]
     require_elastic(open_chains, "the conductivity of mode coupling")

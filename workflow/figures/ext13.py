@@ -16,24 +16,20 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics.mode_coupling import Chain
 from workflow.physics.rings import LOOKS, chain
+from workflow.physics.setting import REVERSAL, epsilon
 
-ELASTIC, REVERSAL = "elastic", "reversal"
+ELASTIC = "elastic"
 REACH = 4  # largest distance from the centre of a sound peak that counts, in widths
 SETTLED = 64  # first time, in λ/√T, from which on amplitudes are fitted; before, the exponents still fall
 GAS = ["rule", "epsilon", "zeta", "mass"]  # columns that identify a gas
 COMMON = 5  # εt, in λ/√T, at which D of different ε are compared
+GASES = "light light-long light-longest dense dense-long dense-longest dilute dilute-long dilute-longest sparse-longest "
 LATE = 8  # first time, in λ/√T, of the exponents that are plotted against εt
-
-
-def epsilon(result: Result) -> float:
-    """Fraction of the collisions that reverse the momentum of the scatterer."""
-    reversing = result.parameters["rule"] == REVERSAL
-    return float(result.parameters["reversal-probability"]) if reversing else 0.0
 
 
 def predicted(result: Result, time: float) -> float:
@@ -204,6 +200,7 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
         scatterers in a fraction ε of collisions, the last at most {format_with_error(most.local_exponent, most.local_exponent_error)}. Table: also random directions. {ERRORS}"""
 
 
+@plots(GASES + "reversal reversal-rare random heat")
 def draw(results: Sequence[Result]) -> Drawn:
     heat = [result for result in results if result.provenance["program"] == "heat_current"]
     peaks = [result for result in results if result.provenance["program"] == "correlation"]

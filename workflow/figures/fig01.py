@@ -5,6 +5,7 @@ and the fronts over lambda/2t, the momentum that crosses half a cell within t.
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import baths, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -39,7 +40,7 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def plot_times(axes: Axes, table: pd.DataFrame) -> None:
     """One curve with its error band per time."""
-    curves = zip(table.groupby("time"), style.SEQUENCE, style.DASHES, strict=True)
+    curves = zip(table.groupby("time"), cycle(style.SEQUENCE), cycle(style.DASHES), strict=False)
     for (time, part), color, dashes in curves:
         label = f"$t = {time:g}$"
         axes.plot(part.momentum, part.weighted_density, color=color, linestyle=dashes, label=label)
@@ -65,6 +66,7 @@ def caption(results: Sequence[Result]) -> str:
         Bands, bars: standard errors."""
 
 
+@plots("paper short unit-chain")
 def draw(results: Sequence[Result]) -> Drawn:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)

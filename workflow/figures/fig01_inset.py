@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -81,6 +81,7 @@ def caption(results: Sequence[Result]) -> str:
         filled: at λ = {setting.spacing(chain)[1]}, {slope} and {height} in the end. {ERRORS}"""
 
 
+@plots("paper short unit-chain")
 def draw(results: Sequence[Result]) -> Drawn:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)

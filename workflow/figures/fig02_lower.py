@@ -7,7 +7,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -38,6 +38,7 @@ def caption(results: Sequence[Result]) -> str:
         The first cell exceeds the line by {excess}. {ERRORS}"""
 
 
+@plots("deterministic rare")
 def draw(results: Sequence[Result]) -> Drawn:
     figure, (above, below) = style.stacked(1.7, 1, height=1.5)
     tables = [tabulate(result) for result in results]

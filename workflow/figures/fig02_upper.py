@@ -10,7 +10,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -39,6 +39,7 @@ def caption(results: Sequence[Result]) -> str:
         reaches the baths; that of γ = 1 is flatter: the first scatterer has {first}. {ERRORS}"""
 
 
+@plots("deterministic rare")
 def draw(results: Sequence[Result]) -> Drawn:
     figure, (above, below) = style.stacked(2, 1, height=1.6, width=1.1)
     tables = [tabulate(result) for result in results]

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import baths, format_number, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -61,7 +61,7 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
 
 
 def caption(results: Sequence[Result]) -> str:
-    (paper,) = (result for result in results if case(result) == PAPER)
+    paper = next(result for result in results if case(result) == PAPER)
     jumps = listed(f"{format_number(paper['jump'].mean[index])} at {end}" for index, end, *_ in ENDS)
     return f"""
         Flux F(p, x) of the particles at both ends by the kinetic equation; {parameters([paper], "sigma", "gamma")}, {baths(paper)}. (a) F; right
@@ -69,6 +69,7 @@ def caption(results: Sequence[Result]) -> str:
         is Gaussian, what leaves is not; dotted: T_L = T_R."""
 
 
+@plots("paper equal exchange")
 def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.5, width=1.1)

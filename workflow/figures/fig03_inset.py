@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Drawn, main, require_elastic
+from workflow.lib.figure import Drawn, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, deviations
@@ -103,6 +103,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         {LIMITS[0][1]} for all N and {LIMITS[1][1]} for the longest, of max F or (green) if ∫F = 1. {ERRORS}"""
 
 
+@plots("simulation continuum mean-field")
 def draw(results: Sequence[Result]) -> Drawn:
     require_elastic(results, "the kinetic equation")
     table = deviations(results)

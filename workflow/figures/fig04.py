@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -150,6 +150,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
         equation). (a), (b) F_N; right axis: over ν_L + ν_R. (c) {difference}. (d) Jump at p = 0, {jumps}. {ERRORS}"""
 
 
+@plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")
 def draw(results: Sequence[Result]) -> Drawn:
     table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]

@@ -1,18 +1,21 @@
 """Fig. 5: persistence mu against the mass ratio sigma, with the law arccos(sigma)/pi."""
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import numpy as np
 import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Drawn, main, require_elastic
+from workflow.lib.figure import Drawn, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 from workflow.physics.closed import persistence_law
 
-MARKS = [style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white")]
+MARKS = [
+    style.points(*look) for look in (("o", style.BLUE), ("s", style.VERMILLION, "white"), ("^", style.GREEN))
+]
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
@@ -55,6 +58,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         the law at the energies measured before collisions. {ERRORS}"""
 
 
+@plots("paper dense")
 def draw(results: Sequence[Result]) -> Drawn:
     require_elastic(results, "the law arccos(σ)/π")
     table = tabulate(results)
@@ -62,7 +66,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, persistence_law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
-    for (particles, series), mark in zip(table.groupby("particles_per_cell"), MARKS, strict=True):
+    for (particles, series), mark in zip(table.groupby("particles_per_cell"), cycle(MARKS), strict=False):
         label = f"$n = {particles}$"
         above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark)
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark)

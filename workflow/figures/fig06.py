@@ -5,6 +5,7 @@ that of the start: the paper's Gaussian one gives tau^-3 at long times, times ex
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import numpy as np
 import pandas as pd
@@ -12,10 +13,15 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, format_number, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 
-MARKS = {0.0: ("o", style.BLUE, "dashed"), 0.5: ("s", style.VERMILLION, "dotted")}
+Mark = tuple[str, str, str]  # marker, colour and dashes
+MARKS: list[Mark] = [
+    ("o", style.BLUE, "dashed"),
+    ("s", style.VERMILLION, "dotted"),
+    ("^", style.GREEN, "dashdot"),
+]
 POWERS = {0.0: 3, 0.5: 2}  # the paper's exponents, times -1
 UNSURE = 0.5  # relative error above which a symbol is open
 
@@ -50,10 +56,9 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table.reset_index(drop=True)
 
 
-def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str = "") -> None:
+def draw_density(axes: Axes, table: pd.DataFrame, mark: Mark, power: float = 0, label: str = "") -> None:
     """Plots the density times tau^power with errors. Symbols are open where the error is large."""
-    sigma = float(table.sigma.iloc[0])
-    marker, color, dashes = MARKS[sigma]
+    marker, color, dashes = mark
     scale = table.tau**power
     for part, look in ((~table.unsure, {"label": label}), (table.unsure, {"markerfacecolor": "white"})):
         y, error = (scale * table.density)[part], (scale * table.density_error)[part]
@@ -62,13 +67,12 @@ def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str =
     axes.plot(table.tau, scale * table.fitted, color=style.BLACK, linestyle=dashes, zorder=5)
 
 
-def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> None:
+def mark_outside(axes: Axes, table: pd.DataFrame, color: str, power: float, top: float) -> None:
     """Marks bins above the frame by triangles at its upper edge."""
     outside = table.tau[table.tau**power * table.density > top]
     # Without clipping a line that has no points would count for the layout, at the corner of the figure.
     if outside.empty:
         return
-    _, color, _ = MARKS[float(table.sigma.iloc[0])]
     look: style.Look = {"marker": "^", "color": color, "markerfacecolor": "white", "markersize": 3.5}
     axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
 
@@ -80,27 +84,29 @@ def caption(results: Sequence[Result]) -> str:
     )
     return f"""
         Density Ψ(τ) of waiting times in closed chains, {parameters(results, "cells", "gamma", *GAS)}. (a) Ψ; blue: exact for σ = 0, n → ∞.
-        (b), (c) Ψ times the paper's powers of τ. Black: fits of the shaded tail, exponents {exponents}. Open: errors above
+        Below: Ψ times the paper's powers of τ. Black: fits of the shaded tail, exponents {exponents}. Open: errors above
         {format_number(100 * UNSURE)} %; triangles: off frame. {ERRORS}"""
 
 
+@plots("all")
 def draw(results: Sequence[Result]) -> Drawn:
     results = sorted(results, key=lambda result: result.parameters["sigma"])
     tables = [tabulate(result) for result in results]
-    figure, (above, *strips) = style.stacked(2.4, 1, 1, height=1.8)
-    for strip, result, table in zip(strips, results, tables, strict=True):
+    figure, (above, *strips) = style.stacked(2.4, *[1] * len(results), height=0.8 + 0.5 * len(results))
+    for strip, result, table, mark in zip(strips, results, tables, cycle(MARKS), strict=False):
         sigma = float(result.parameters["sigma"])
+        power = POWERS.get(sigma, 2)
         exponent = style.format_quantity(result["exponent"])
-        draw_density(above, table, label=rf"$\sigma = {sigma:g}$: $\tau^{{{exponent}}}$")
-        draw_density(strip, table, POWERS[sigma])
+        draw_density(above, table, mark, label=rf"$\sigma = {sigma:g}$: $\tau^{{{exponent}}}$")
+        draw_density(strip, table, mark, power)
         if sigma == 0:
             seen = table[table.gaussian_start > table.density.min()]
             exact: style.Look = {"color": style.SKY, "zorder": 0, "label": r"$\sigma = 0$, $n \to \infty$"}
             above.plot(seen.tau, seen.gaussian_start, **exact)
             strip.plot(table.tau, table.tau**3 * table.gaussian_start, **exact)
-        typical = (table.tau ** POWERS[sigma] * table.fitted).median()
-        mark_outside(strip, table, POWERS[sigma], 2 * typical)
-        strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{POWERS[sigma]}\,\Psi$, $\sigma = {sigma:g}$")
+        typical = (table.tau**power * table.fitted).median()
+        mark_outside(strip, table, mark[1], power, 2 * typical)
+        strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{power}\,\Psi$, $\sigma = {sigma:g}$")
     above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
     for axes in (above, *strips):
         axes.axvspan(cut(results[0]), max(table.tau.max() for table in tables), **style.WINDOW)

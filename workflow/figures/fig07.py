@@ -4,13 +4,14 @@ The mean square displacement of the centre of mass is the part due to drift. Sev
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import numpy as np
 import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
@@ -50,7 +51,7 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
     last, paper = random.iloc[-1], results[0]
-    (without,) = (style.format_quantity(result["alpha"]) for result in results if zero(result))
+    without = next(style.format_quantity(result["alpha"]) for result in results if zero(result))
     return f"""
         Spreading of tagged particles in closed chains, {parameters([paper], "sigma", "gamma", *GAS)}. (a) Mean square displacement;
         lines: of the centre of mass. (b) Local exponents. In the shaded window α is {style.format_quantity(paper["alpha"])} at N = {cells(paper)}, as in
@@ -58,6 +59,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
         momentum α is {without}. {ERRORS}"""
 
 
+@plots("all zero-momentum size")
 def draw(results: Sequence[Result]) -> Drawn:
     results = sorted(results, key=lambda result: (zero(result), cells(result)))
     tables = [tabulate(result) for result in results]
@@ -66,7 +68,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     last = float(time.iloc[-1])
     window = (last / 10 ** results[0].parameters["fit-decades"], last)
     figure, (above, below) = style.stacked(2, 1, height=1.8)
-    shapes = iter(RANDOM)
+    shapes = cycle(RANDOM)
     for result, table in zip(results, tables, strict=True):
         look = ZERO if zero(result) else style.points(*next(shapes))
         name = f"$N = {cells(result)}$" + (", zero total momentum" if zero(result) else "")

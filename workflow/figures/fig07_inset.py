@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, format_number, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 
@@ -52,6 +52,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         enlarged. For σ ≠ 0, α is at least {least} with and at most {most} without total momentum. {ERRORS}"""
 
 
+@plots("all zero-momentum")
 def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.6)

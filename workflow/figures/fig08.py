@@ -7,6 +7,7 @@ scatterers. Points whose window is not stationary, or whose run stopped before i
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -16,7 +17,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, parameters, rule
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -24,7 +25,7 @@ from workflow.physics.conductivity import drive, gas
 from workflow.physics.growth import local_exponents
 
 BELOW = 0.7  # ratio of a guide to the lowest point
-CURVE = ["curve", "rule"]  # columns that identify a curve
+CURVE = ["curve", "rule", "epsilon"]  # columns that identify a curve
 PAPERS = {"deterministic": "N", "rare": 1}  # γ of the curves at the paper's drive
 LONGER = {"large": "deterministic"}  # runs that continue a curve to longer chains
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
@@ -57,7 +58,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         row |= {name: result.parameters[name] for name in ("gamma", "cells")}
         row |= {"spacing": setting.spacing(result)[1], "drive": drive(result), "usable": result.usable}
         rows.append(
-            row | result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
+            row
+            | {"epsilon": setting.epsilon(result)}
+            | result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         )
     table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
@@ -78,10 +81,13 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     axes.annotate(name, end, (4, 0), textcoords="offset points", size=8, va="center")
 
 
-def compared(table: pd.DataFrame, control: str) -> str:
+def compared(table: pd.DataFrame, control: float) -> str:
     """Exponents at fixed density with and without conserved momentum, between the largest neighbouring sizes that both have."""
     known = table.dropna(subset="between").set_index(["cells", "between"])
-    exponents = [known[known.curve == "dense"], known[(known.curve == "reversal") & (known.rule == control)]]
+    exponents = [
+        known[known.curve == "dense"],
+        known[(known.curve == "reversal") & (known.epsilon == control)],
+    ]
     common = exponents[0].index.intersection(exponents[1].index)
     if not len(common):
         return "at no common sizes"
@@ -93,28 +99,23 @@ def compared(table: pd.DataFrame, control: str) -> str:
     return f"{elastic} and {broken} between N = {cells} and {between**2 / cells:.0f}"
 
 
-def fraction(rule_text: str) -> str:
-    """ε of `reversal (0.03)`."""
-    return rule_text.partition("(")[2].rstrip(")")
-
-
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    control = table[table.curve == "reversal"].rule.min()
+    control = table[table.curve == "reversal"].epsilon.min()
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains, {parameters(results, "sigma")}, the paper's baths at λ = 1/N, else T_R/T_L =
         {format_number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes. At fixed density (λ =
-        {table[table.curve == "dense"].spacing.iloc[0]}), without and with a fraction ε = {fraction(control)} of collisions that break conservation of
+        {table[table.curve == "dense"].spacing.iloc[0]}), without and with a fraction ε = {format_number(control)} of collisions that break conservation of
         momentum (reversal), {compared(table, control)}. {ERRORS}"""
 
 
+@plots("deterministic large rare rare-small reversal mean-field thinning thinning-large dense dense-large")
 def draw(results: Sequence[Result]) -> Drawn:
-    chains = [result for result in results if result.provenance["program"] == "conductivity"]
-    shown = [result for result in chains if gas(result) != "dilute"]
+    shown = [result for result in results if result.provenance["program"] == "conductivity"]
     table, theory = tabulate(shown), mean_field(results)
     size = (2 * style.COLUMN, 1.2 * style.HEIGHT)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)
-    controls = iter(CONTROLS)
-    for (curve, name), part in table.groupby(CURVE, sort=False):
+    controls = cycle(CONTROLS)
+    for (curve, name, epsilon), part in table.groupby(CURVE, sort=False):
         first = part.iloc[0]
         if curve in PAPERS:
             look, label = (
@@ -127,7 +128,10 @@ def draw(results: Sequence[Result]) -> Drawn:
         elif name == "elastic":
             look, label = DRIVEN[curve], rf"$T_R/T_L = {first.drive:g}$, $\lambda = {first.spacing}$"
         else:
-            look, label = next(controls), rf"$\lambda = {first.spacing}$, $\epsilon = {fraction(name)}$"
+            look, label = (
+                next(controls),
+                rf"$\lambda = {first.spacing}$, $\epsilon = {format_number(epsilon)}$",
+            )
         left.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
         right.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
     color = style.BY_GAMMA["N"][1]
@@ -147,7 +151,9 @@ def draw(results: Sequence[Result]) -> Drawn:
     left.set_xlim(low, 1.6 * high)  # room for the names of the guides
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     style.letter(left, right)
-    whole = table.drop(columns="between").merge(theory, how="left", on=["gamma", "cells", "drive"])
+    whole = table.drop(columns=["between", "epsilon"]).merge(
+        theory, how="left", on=["gamma", "cells", "drive"]
+    )
     return figure, whole, caption(table, shown)
 
 

@@ -14,12 +14,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Drawn, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
 from workflow.physics.mode_coupling import Chain
-from workflow.physics.pulse import LOOKS, in_order, label, look, look_of, resolved, start
+from workflow.physics.pulse import in_order, label, look, look_of, resolved, start
 
 FAINT = 0.45
 
@@ -83,8 +83,9 @@ def caption(results: Sequence[Result]) -> str:
         {near}{faint} (c) Position of the moving peak; dashed: initial speed. (d) Its speed{sound}. From rest it {speed}. {ERRORS}"""
 
 
+@plots("rest gaussian")
 def draw(results: Sequence[Result]) -> Drawn:
-    results = [result for result in in_order(results) if result.run in LOOKS]
+    results = in_order(results)
     figure, panels = plt.subplot_mosaic(
         [["rest", "gaussian", "position"], ["rest", "gaussian", "speed"]],
         figsize=(3 * style.COLUMN, 1.2 * style.HEIGHT),

@@ -29,13 +29,13 @@ def result_identity(program: str, words: str, sources: str) -> str:
 
 
 def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) -> str:
-    """Identity of a panel. results: paths of the results that it plots, of which the names count; sources: sources_of_panel(script)."""
+    """Identity of a panel. results: paths of the results that it plots, of which the names count; sources: sources_of_panel()."""
     return identity(panel, ["/".join(Path(path).parts[-2:]) for path in results], sources)
 
 
-def sources_of_panel(script: str) -> dict[str, str]:
-    """Hashes of the script of a panel, of lib and physics, and of the locked packages. Raises OSError."""
-    return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED)}
+def sources_of_panel(script: str, reads: Iterable[str] = ()) -> dict[str, str]:
+    """Hashes of the script of a panel, of lib and physics, of the locked packages, and of the files that it reads. Raises OSError."""
+    return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED, *reads)}
 
 
 def named_identity(path: Path | str) -> str:

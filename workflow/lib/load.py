@@ -1,6 +1,6 @@
 """Reads result files (docs/format.md)."""
 
-import os
+import io
 import re
 import zlib
 from collections.abc import Iterator
@@ -128,6 +128,11 @@ class Result:
         """Name of the run: that of the file without its identity."""
         return re.sub(rf"\.{IDENTITY}$", "", self.path.stem)
 
+    @property
+    def series(self) -> str:
+        """Name of the series of the run, which is followed by `_option=value`."""
+        return re.sub(r"_[a-z0-9-]+=.*", "", self.run)
+
     def ends(self, name: str) -> tuple[float, float]:
         """A parameter of the left and of the right bath."""
         return float(self.parameters[f"{name}-left"]), float(self.parameters[f"{name}-right"])
@@ -222,10 +227,10 @@ def nodes_of(file: h5py.File) -> dict[str, h5py.Group | h5py.Dataset]:
 
 @contextmanager
 def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dict[str, h5py.Dataset]]]:
-    """Opens a result file after checking identity and checksum. It is not locked, because results are written under another name and
-    renamed."""
+    """Opens a result file after checking identity and checksum. HDF5 gets its bytes: it refuses a file that the same process has open with
+    another kind of lock, as xarray does. Results are written under another name and renamed, and need no lock."""
     try:
-        with h5py.File(path, locking=False) as file:
+        with h5py.File(io.BytesIO(Path(path).read_bytes())) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}
             if provenance.get("format") != FORMAT:
                 raise FormatError("not a result of this project")
@@ -249,7 +254,7 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dic
         raise FormatError(f"{path}: {error}") from error
     except (OSError, LookupError, RuntimeError, ValueError) as error:
         if isinstance(error, OSError) and error.errno:  # the file is unreadable, not damaged
-            raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
+            raise
         if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # the name is not one that the project gives
             raise FormatError(
                 f"{path} is damaged, or not a result file: {error}; name a result file"

@@ -90,7 +90,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per gas and size."""
+    """One row per gas and size with both differences."""
     runs: dict[tuple[str, int], dict[bool, Response]] = {}
     for result in results:
         response = Response.of(result)
@@ -98,6 +98,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = [
         {"gas": name, "cells": cells} | onsager(pair[True], pair[False])
         for (name, cells), pair in runs.items()
+        if len(pair) == 2
     ]
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 

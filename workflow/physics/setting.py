@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from workflow.lib.load import Result
 
+REVERSAL = "reversal"  # a collision rule
 SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
 
 
@@ -16,6 +17,12 @@ def gamma(result: Result) -> str:
     """Value of gamma as text: N or a number."""
     value = result.parameters["gamma"]
     return value if value == "N" else f"{value:g}"
+
+
+def epsilon(result: Result) -> float:
+    """Fraction of the collisions that reverse the momentum of the scatterer."""
+    reversing = result.parameters["rule"] == REVERSAL
+    return float(result.parameters["reversal-probability"]) if reversing else 0.0
 
 
 def spacing(result: Result) -> tuple[float, str]:

@@ -35,6 +35,7 @@ OF_SERIES: Schema = {
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
+NAMES: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True}
 NEW = " (after a change of the programs: run make build)"
 SAFE = YAML(typ="safe", pure=True)
 
@@ -96,8 +97,15 @@ def _shown(path: Path) -> str:
     return str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
 
 
+def panel_names(folder: Path = CONFIGURATION) -> list[str]:
+    """Names of the panels in paper.yaml, also before the programs are compiled. Raises ConfigurationError."""
+    paper = read(folder, "paper.yaml")
+    paper.check(_object({"panels": NAMED}) | {"required": ["panels"]})
+    return [*paper.content["panels"]]
+
+
 def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
-    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError, BuildError before the programs are compiled."""
     programs: dict[str, Schema] = declared()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
@@ -131,7 +139,8 @@ def _panels(programs: dict[str, Schema]) -> Schema:
         {
             "program": program,
             "script": NAME,
-            "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True},
+            "uses": NAMES,
+            "reads": NAMES,
             "common": {"type": "object"},
             "series": NAMED | {"additionalProperties": series},
         }
@@ -165,10 +174,12 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     panels = {}
     for name, panel in paper["panels"].items():
         of_series = {key: series[program] for key, program in programs_of(panel).items()}
-        omit = {"type": "array", "items": {"enum": [*of_series]}, "uniqueItems": True}
-        panels[name] = _object({**every, "omit": omit, **of_series})
+        missing = {"unknown": f"is not in paper.yaml as a series of {name}: remove it here"}
+        omit = {"type": "array", "items": {"enum": [*of_series], **missing}, "uniqueItems": True}
+        panels[name] = _object({**every, "omit": omit, **of_series}) | missing
     default = _object({name: every[name] for name in ("replicas", ERROR)})
-    return _object({"default": default, "panels": _object(panels)}) | {"required": ["default"]}
+    listed = _object(panels) | {"unknown": "is not in paper.yaml as a panel: remove it here"}
+    return _object({"default": default, "panels": listed}) | {"required": ["default"]}
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
@@ -202,11 +213,13 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
     value = json.dumps(error.instance, default=str)
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         for name in error.instance.keys() - schema["properties"].keys():
-            unknown = f"{schema['title']} has no such option" if "title" in schema else "unknown key"
+            unknown = schema.get("unknown", "unknown key")
+            unknown = f"{schema['title']} has no such option" if "title" in schema else unknown
             remedy = suggestion(str(name), schema["properties"]) + (NEW if "title" in schema else "")
             yield (*keys, name), schema.get("elsewhere", {}).get(name, f"{unknown}; {remedy}")
     elif error.validator == "enum":
-        yield keys, f"{value} is unknown; {suggestion(str(error.instance), schema['enum'])}{NEW}"
+        unknown, new = schema.get("unknown", "is unknown"), "" if "unknown" in schema else NEW
+        yield keys, f"{value} {unknown}; {suggestion(str(error.instance), schema['enum'])}{new}"
     elif "allowed" in schema:
         yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
     else:

@@ -7,6 +7,11 @@ from typing import Any
 
 from workflow.pipeline.sources import programs
 
+
+class BuildError(ValueError):
+    """A program is missing or older than its sources."""
+
+
 DESCRIPTIONS = Path(__file__).parents[2] / "build/describe"
 
 
@@ -19,7 +24,12 @@ def described() -> dict[str, dict[str, Any]]:
 
 @cache
 def declared() -> dict[str, dict[str, dict[str, Any]]]:
-    """JSON Schema of every option that determines a result, by program and name."""
+    """JSON Schema of every option that determines a result, by program and name. Raises BuildError before the first build."""
+    if not described():
+        described.cache_clear()  # the programs may be compiled in this session
+        raise BuildError(
+            "The options of the programs are unknown before they are compiled: run make build first"
+        )
     return {
         name: {
             option: schema

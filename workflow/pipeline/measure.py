@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from workflow.lib.identity import ROOT
-from workflow.lib.load import Result, load
+from workflow.lib.load import REMEDY, FormatError, Result, load
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import Options
 from workflow.pipeline.described import declared
@@ -35,7 +35,7 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     reasons to doubt each result.
 
     The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
-    calls shares their random numbers. A result of these options and sources in data/measured is not measured again. An interrupted
+    calls shares their random numbers. A result of these options and sources in data/measured is not measured again, unless it was edited. An interrupted
     call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
 
     Raises MeasureError; BuildError if the program is missing or older than its sources."""
@@ -96,13 +96,18 @@ def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
         options["seed"] = seed_of(json.dumps([program, options], sort_keys=True))
     run = Run(program, program, options)
     path = MEASURED / f"{run.name}.{run.identity}.h5"
-    if not path.exists():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        resume = ["--resume", "--progress", "log"] if "replicas" in known else []
+    if path.exists():
         try:
-            execute(program, options | threads, path, *resume, relay=True)
-        except ProgramError as error:
-            raise MeasureError(str(error)) from error
+            return load(path)
+        except FormatError as error:
+            refused = path.rename(f"{path}.refused")
+            warnings.warn(f"{str(error).removesuffix(REMEDY)}; renamed to {refused.name}", stacklevel=4)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    resume = ["--resume", "--progress", "log"] if "replicas" in known else []
+    try:
+        execute(program, options | threads, path, *resume, relay=True)
+    except ProgramError as error:
+        raise MeasureError(str(error)) from error
     return load(path)
 
 

@@ -4,13 +4,14 @@ import hashlib
 import itertools
 import re
 import shlex
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
 from workflow.lib.identity import (
+    ROOT,
     SHARED,
     content_hash,
     identity,
@@ -79,13 +80,14 @@ class Run:
 @dataclass(frozen=True)
 class Panel:
     """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of paper.yaml that the quality
-    replaces, as `cells of rare`."""
+    replaces, as `cells of rare`; reads: files that the script reads."""
 
     name: str
     script: str
     runs: tuple[Run, ...]
     uses: tuple[str, ...] = ()
     replaced: tuple[str, ...] = ()
+    reads: tuple[str, ...] = ()
 
     def run(self, name: str) -> Run:
         return next(run for run in self.runs if run.name == name)
@@ -166,14 +168,23 @@ def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
             if used not in panels or not panels[used].runs:
                 text = f"{used} has no runs; {suggestion(used, {*panels} - {panel.name, used})}"
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "uses", number), text))
+        for number, path in enumerate(panel.reads):
+            if not (ROOT / path).is_file() or ".." in Path(path).parts:
+                text = f"{path} is not a file below {ROOT}: write it there"
+                raise ConfigurationError(paper.complaint(("panels", panel.name, "reads", number), text))
     return panels
 
 
+def require_panel(name: str, known: Collection[str]) -> None:
+    """Raises ConfigurationError with the most similar of the known names."""
+    if name not in known:
+        raise ConfigurationError(f"{name} is not a panel; {suggestion(name, known)}")
+
+
 def panel_named(plan: dict[str, Panel], name: str) -> Panel:
-    """The panel of this name. Raises ConfigurationError with the most similar name."""
-    if name in plan:
-        return plan[name]
-    raise ConfigurationError(f"{name} is not a panel; {suggestion(name, plan)}")
+    """The panel of this name. Raises ConfigurationError."""
+    require_panel(name, plan)
+    return plan[name]
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
@@ -200,7 +211,7 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
 def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
     """Path of the files of a panel in the store, without suffix. Raises ConfigurationError, OSError."""
     try:
-        sources = sources_of_panel(plan[name].script)
+        sources = sources_of_panel(plan[name].script, plan[name].reads)
     except FileNotFoundError as error:
         raise ConfigurationError(
             f"panel {name} of paper.yaml has no script: write {error.filename}"
@@ -222,10 +233,10 @@ def report_stem(plan: dict[str, Panel], quality: str) -> str:
     return RENDERING.format(quality=quality, panel="report", identity=present)
 
 
-def rendering_command(script: str, stem: str, data: list[str]) -> str:
+def rendering_command(panel: Panel, stem: str, data: list[str]) -> str:
     """Shell command that renders a panel to stem.*"""
-    words = [".venv/bin/python", "-m", f"workflow.figures.{script}", "--output", stem, "--data", *data]
-    return shlex.join(words)
+    words = [".venv/bin/python", "-m", f"workflow.figures.{panel.script}", "--output", stem]
+    return shlex.join([*words, "--data", *data, *(["--reads", *panel.reads] if panel.reads else [])])
 
 
 def _merged(*efforts: dict[str, Any]) -> dict[str, Any]:
@@ -263,7 +274,8 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = selection.complete(name, run, given, scale) if replicated else given
             runs.append(Run(run, program, completed, series))
-    return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())), tuple(replaced))
+    uses, reads = (tuple(panel.get(key, ())) for key in ("uses", "reads"))
+    return Panel(name, panel.get("script", name), tuple(runs), uses, tuple(replaced), reads)
 
 
 def _in_name(value: object) -> str:

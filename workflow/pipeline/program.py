@@ -9,7 +9,7 @@ from pathlib import Path
 
 from workflow.lib.identity import ROOT
 from workflow.pipeline.configuration import Options, arguments
-from workflow.pipeline.described import DESCRIPTIONS
+from workflow.pipeline.described import DESCRIPTIONS, BuildError
 from workflow.pipeline.plan import Run
 from workflow.pipeline.sources import programs, source_hash
 
@@ -21,10 +21,6 @@ LEAST_REPLICAS = 64  # replicas of a run with a target error, as StoppingRule::l
 
 class ProgramError(ValueError):
     """A program has refused its options, or has failed."""
-
-
-class BuildError(ValueError):
-    """A program is missing or older than its sources."""
 
 
 def is_built(program: str) -> bool:

@@ -1,16 +1,24 @@
 """Results of a panel: `load_panel("fig05", quality="standard")["paper_sigma=0.5"]["mu"]`."""
 
+from pathlib import Path
+
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
-from workflow.pipeline.plan import Selection, data_path, load_plan, panel_named
+from workflow.pipeline.plan import Selection, load_plan, panel_named, runs_of
 
 
 def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:
-    """The results of a panel's own runs by their names, those of the present configuration and sources. Raises FormatError,
-    ConfigurationError, OSError."""
-    planned = panel_named(load_plan(quality), panel)
+    """The results that a panel plots, in the order in which draw() of its script gets them: those of panels in `uses` by PANEL/RUN, then its
+    own by the names of the runs. They are those of the present configuration and sources. Raises FormatError, ConfigurationError, BuildError
+    before the first build, OSError."""
+    plan = load_plan(quality)
+    runs = runs_of(plan, [panel_named(plan, panel).name], quality)
+    names = {path: (Path(path).parent.name, run.name) for path, run in runs.items()}
     try:
-        return {run.name: load(ROOT / data_path(quality, panel, run)) for run in planned.runs}
+        return {
+            run if owner == panel else f"{owner}/{run}": load(ROOT / path)
+            for path, (owner, run) in names.items()
+        }
     except FormatError as error:
         remedy = f"run make panel PANEL={panel} {Selection.of(quality).arguments}"
         raise FormatError(f"{error}; {remedy}") from error

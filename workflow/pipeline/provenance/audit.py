@@ -10,6 +10,7 @@ import argparse
 import os
 import subprocess
 from collections import Counter, defaultdict
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
@@ -83,7 +84,7 @@ class FigureFiles:
     """Figure of a panel: in the store, under its present identity, and the copy that is shown."""
 
     def __init__(self, plan: dict[str, Panel], name: str, quality: str) -> None:
-        self.script, self.shown = plan[name].script, f"{FIGURES}/{quality}/{name}"
+        self.panel, self.shown = plan[name], f"{FIGURES}/{quality}/{name}"
         self.data, self.stem = data_of(plan, name, quality), stem_of(plan, name, quality)
         self.record = read_record(f"{self.stem}.json")
         self.statement = (name, quality, named_identity(self.stem))
@@ -102,10 +103,20 @@ class FigureFiles:
                     return Fault("missing", path, "it is not there")
                 content = Path(path).read_bytes()
                 if sha256(content) != digest:
-                    state = "edited" if stated(content) in (None, self.statement) else "stale"
+                    if (states := stated(content)) not in (None, self.statement):
+                        reason = f"its identity is {states[2]}, that of other sources or results"
+                        return Fault("stale", path, f"{reason}; make figures writes the present one")
                     remedy = "remove it" if path.startswith(RENDERED) else "make figures writes it again"
-                    return Fault(state, path, f"it differs from its hash in {self.stem}.json; {remedy}")
+                    return Fault("edited", path, f"it differs from its hash in {self.stem}.json; {remedy}")
         return self._fault_of_rendering() if render else None
+
+    def changes(self, former: Mapping[str, str]) -> str:
+        """What differs from the parents of a former figure."""
+        sources = sources_of_panel(self.panel.script, self.panel.reads)
+        results = {path for path in former if path.endswith(".h5") and path not in sources}
+        paths = dict.fromkeys([*sources, *(path for path in former if path not in results)])
+        changed = [path for path in paths if sources.get(path) != former.get(path)]
+        return f"changed: {', '.join(changed + ['results'] * (results != {*self.data}))}"
 
     def _fault_without_record(self) -> Fault:
         record = f"{self.stem}.json"
@@ -114,16 +125,12 @@ class FigureFiles:
         former = next((known["parents"] for path in siblings(record) if (known := read_record(path))), None)
         if former is None:
             return Fault("missing", record, "it is not there")
-        changed = [
-            path for path, digest in sources_of_panel(self.script).items() if former.get(path) != digest
-        ]
-        changed += ["results"] * ({path for path in former if path.endswith(".h5")} != {*self.data})
-        return Fault("stale", f"{self.shown}.pdf", f"changed: {', '.join(changed)}")
+        return Fault("stale", f"{self.shown}.pdf", self.changes(former))
 
     def _fault_of_rendering(self) -> Fault | None:
         name, quality, _ = self.statement
         rendered = Path("build/audit", quality, name)
-        command = rendering_command(self.script, str(rendered), self.data)
+        command = rendering_command(self.panel, str(rendered), self.data)
         done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
         if done.returncode:
             return Fault("not checked", f"{self.shown}.pdf", f"rendering fails: {done.stderr.strip()[-200:]}")

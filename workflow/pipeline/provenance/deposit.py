@@ -52,7 +52,8 @@ def main(options: argparse.Namespace) -> None:
         sys.exit(f"{first.path} is {first.state}: {first.reason}; run make figures {options.effort}")
     results = runs_of(plan, plan, quality)
     costs = [cost for path in results if os.path.exists(cost := path.replace(".h5", ".cost.json"))]
-    paths = {*git("ls-files"), *results, *costs}
+    paths = {*git("ls-files"), *results, *costs, *(path for panel in plan.values() for path in panel.reads)}
+    paths |= {*map(str, Path("build/describe").glob("*.json"))}  # for status and load_panel before make build
     for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
         paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}
     archive = Path(f"build/deposit/lorentz-gas-{quality}.zip")

@@ -1,6 +1,7 @@
 """Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
 
-Exit status: 0 if the file is unmodified, 1 if it is edited or states nothing, 3 if its record is not here.
+The first line states whether it is unmodified, and fresh here. Exit status: 0 if the file is unmodified, 1 if it is edited or states
+nothing, 3 if its record is not here.
 """
 
 import argparse
@@ -8,10 +9,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.identity import content_hash, result_identity, sha256, stated
+from workflow.lib.identity import named_identity, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import QUALITIES, Selection, load_plan, runs_of
+from workflow.pipeline.provenance.audit import FigureFiles
 from workflow.pipeline.publish import RENDERED, read_record
 from workflow.pipeline.sources import source_hash
 
@@ -42,13 +44,20 @@ def selections() -> list[str]:
 def explain_result(path: Path) -> int:
     origin = load_provenance(path)
     program, words = origin["program"], origin["words"]
+    panels = []
     for quality in selections():
         plan = load_plan(quality)
         for planned, run in runs_of(plan, plan, quality).items():
             if (run.program, run.options_text) == (program, words):
-                print_panel(Path(planned).parent.name, quality)
+                panels.append((Path(planned).parent.name, quality))
+    fresh = "fresh" if panels else "of no panel here"
+    if origin["source_hash"] != source_hash(program):
+        fresh = f"stale: sources of {program} have changed"
+    print(f"unmodified, {fresh}")
+    for panel, quality in panels:
+        print_panel(panel, quality)
     print_command(origin)
-    print(f"unmodified, identity {result_identity(program, words, origin['source_hash'])}")
+    print(f"identity {result_identity(program, words, origin['source_hash'])}")
     print(f"compiled by {origin['compiler']} with {origin['libraries']}")
     return 0
 
@@ -59,21 +68,26 @@ def explain_figure(path: Path) -> int:
         print(f"{path} has no panel metadata: it is no file of a panel, or another program rewrote it")
         return 1
     panel, quality, identity = statement
-    print_panel(panel, quality)
     known = f"{RENDERED}/{quality}/{panel}.{identity}.json"
-    if not (record := read_record(known)):
-        print(f"identity {identity}, of which there is no record here")
+    record, plan = read_record(known), load_plan(quality)
+    files = FigureFiles(plan, panel, quality) if panel in plan else None
+    fresh = "fresh"
+    if not files:
+        fresh = "stale: there is no such panel in paper.yaml"
+    elif identity != named_identity(files.stem):
+        fresh = f"stale: {files.changes(record['parents']) if record else 'of other sources or results'}"
+    edited = bool(record) and sha256(content) not in record["files"].values()
+    state = "edited" if edited else "unmodified" if record else f"no record of identity {identity} here"
+    print(f"{state}, {fresh}")
+    print_panel(panel, quality)
+    if not record:
         return 3
-    for parent, digest in record["parents"].items():
-        if parent.endswith(".h5"):
-            try:
-                print_command(load_provenance(parent), f"{parent}: ")
-            except (FormatError, OSError) as error:
-                print(error)
-        elif not (Path(parent).exists() and content_hash(parent) == digest):
-            print(f"{parent} differs here")
-    edited = sha256(content) not in record["files"].values()
-    print(f"{'edited' if edited else 'unmodified'}, made from {len(record['parents'])} files: {known}")
+    for parent in (parent for parent in record["parents"] if parent.endswith(".h5")):
+        try:
+            print_command(load_provenance(parent), f"{parent}: ")
+        except (FormatError, OSError) as error:
+            print(error)
+    print(f"made from {len(record['parents'])} files: {known}")
     print(f"commit {record['commit'] or 'unknown'}, rendered by {record['renderer']}")
     return int(edited)
 

@@ -11,7 +11,7 @@ rule render:
     priority: 10**9  # before any run
     params:
         command=lambda wildcards: rendering_command(
-            PLAN[wildcards.panel].script, STEMS[wildcards.panel], DATA[wildcards.panel]
+            PLAN[wildcards.panel], STEMS[wildcards.panel], DATA[wildcards.panel]
         ),
         stem=lambda wildcards: STEMS[wildcards.panel],
     shell:

@@ -20,6 +20,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 INTERRUPTED = ("interrupted after", "KeyboardInterrupt")  # in the log of a program and of a script
+NOTE = "Not shown: "  # in the log of a script
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 
@@ -81,6 +82,7 @@ class LogHandler(LogHandlerBase):
             except (FormatError, OSError) as error:  # an exception here would end the display
                 found.append(str(error))
         if "panel" in job.wildcards and "run" not in job.wildcards:
+            found += [line for line in last_lines(*job.log) if line.startswith(NOTE)]
             found.append("rendered")
         if found:
             self._print(f"{name_of(job)}: {', '.join(found)}; {self._state()}")
