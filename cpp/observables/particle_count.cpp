@@ -3,10 +3,12 @@
 ///
 /// The stationary density F(p)/|p| is not normalisable: n_t(p) |p| is stationary only above a front p_0(t)
 /// [eq. 24], and n(t) grows by L (F(0+) + F(0-)) per unit of ln t, with L the length of the chain [eq. 25].
-/// The front is where |p| n_t(p), on logarithmic bins, falls to half of its value above.
+/// p_0 is the momentum of a sharp front below which the plateau of |p| n_t(p) would lack as many particles as
+/// it does, so that it is a smooth function of means.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "observables/particle_count/census.hpp"
 #include "sampling/open_run.hpp"
@@ -25,16 +27,6 @@ double mean_between(const std::vector<double>& x, std::span<const double> y, dou
     points += 1;
   }
   return sum / points;
-}
-
-/// x at which y first rises through a level, interpolated linearly in ln x; NaN if there is none.
-double rise_through(const std::vector<double>& x, std::span<const double> y, double level) {
-  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    if (y[i] > level || y[i + 1] <= level) continue;
-    const double part = (level - y[i]) / (y[i + 1] - y[i]);
-    return x[i] * std::pow(x[i + 1] / x[i], part);
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 struct Parameters : OpenParameters {
@@ -81,30 +73,30 @@ struct Reading {
     return fit_logarithm(std::span(at).subspan(early), y.subspan(early), 0, grid.times.back());
   }
 
-  /// Mean of the density above the front, between 10 cells per t and a fifth of the thermal momentum.
-  double plateau(std::span<const double> density, double time) const {
-    return mean_between(tallies.speed.values, density, 10 * grid.cell_length / time, 0.2 * thermal);
-  }
-
-  /// value(density, plateau) at every time.
-  template <class Value>
-  std::vector<double> at_times(const Value& value) const {
+  /// Means of the density above the front, from 10 free paths per t to a fifth of the thermal momentum.
+  std::vector<double> plateaus() const {
     const std::vector<double> densities = speed_density();
     const std::size_t speeds = tallies.speed.values.size();
     std::vector<double> values;
-    for (std::size_t k = 0; k < grid.times.size(); ++k) {
-      const auto density = std::span(densities).subspan(k * speeds, speeds);
-      values.push_back(value(density, plateau(density, grid.times[k])));
-    }
+    for (std::size_t k = 0; k < grid.times.size(); ++k)
+      values.push_back(mean_between(tallies.speed.values, std::span(densities).subspan(k * speeds, speeds),
+                                    10 * grid.free_path / grid.times[k], 0.2 * thermal));
     return values;
   }
-  std::vector<double> plateaus() const {
-    return at_times([](auto, double plateau) { return plateau; });
-  }
+
+  /// p_0 [eq. 25] from the particles slower than about 4 free paths per t, where the plateau begins: fewer
+  /// particles than below its bins have less noise. NaN without a plateau.
   std::vector<double> fronts() const {
-    return at_times([this](std::span<const double> density, double plateau) {
-      return rise_through(tallies.speed.values, density, 0.5 * plateau);
-    });
+    const std::vector<double> edges = grid.speeds.points(), plateau = plateaus();
+    std::vector<double> values;
+    for (std::size_t k = 0; k < grid.times.size(); ++k) {
+      const std::size_t edge = grid.speeds.interval(4 * grid.free_path / grid.times[k]);
+      const auto bins = mean[tallies.by_speed.row(k)].first(edge);
+      const double slower = std::accumulate(bins.begin(), bins.end(), mean[tallies.slower][k]);
+      values.push_back(plateau[k] > 0 ? edges[edge] * std::exp(-slower / plateau[k])
+                                      : std::numeric_limits<double>::quiet_NaN());
+    }
+    return values;
   }
 };
 
@@ -131,7 +123,7 @@ Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, 
                  "|p| n_t(p) above the front, both signs: what dn/d ln t should be",
                  [=](TallyMeans mean) { return reading(mean).plateaus(); });
   group.quantity("front", {tallies.time}, "momentum",
-                 "p_0(t): where |p| n_t(p) has fallen to half of the plateau",
+                 "p_0(t): sharp lower end of a plateau with as many particles",
                  [=](TallyMeans mean) { return reading(mean).fronts(); });
   group.quantity("front_exponent", "1", "Slope of ln p_0 against ln t", [=](TallyMeans mean) {
     return fit_power(grid.times, reading(mean).fronts(), grid.times.front(), grid.times.back());
@@ -146,7 +138,9 @@ Study particle_count(const Parameters& parameters) {
         "--times spans less than a factor of two: a slope in ln t would be undetermined. Add later times.");
   validate(parameters, parameters.times.back(), "--times");
   const OpenChain chain = parameters.chain();
-  const CensusGrid grid(parameters.times, parameters.bins.bins(), chain.cell_length);
+  const double cells = chain.cells,
+               free_path = chain.cell_length * (cells / std::clamp(chain.gamma, 1., cells));
+  const CensusGrid grid(parameters.times, parameters.bins.bins(), free_path);
   const CensusTallies tallies(grid);
   const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));
   return open_study(

@@ -21,6 +21,7 @@ CASES: list[tuple[str, str, dict]] = [
     ("steady_profile", "density_excess", OPEN | {"gamma": 1}),
     ("momentum_flux", "jump", OPEN | {"gamma": 0.3}),
     ("particle_count", "log_slope", {"cells": 4, "times": "1,2,4"}),
+    ("particle_count", "front_exponent", {"cells": 11, "cell_length": "1/N", "times": "20,60,180"}),
 ]
 
 

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from scipy.stats import norm
 
 from tests.python.conftest import Measure, OverSeeds, agree, simulate, spread_accepted
@@ -101,6 +102,36 @@ def test_number_of_particles_against_the_reference_simulator(measure: Measure) -
     assert (
         np.abs(density.mean[-1][fast] - inside.mean(axis=0)) < 4 * spread + 0.05 * inside.mean(axis=0)
     ).all()
+
+
+def test_front_of_free_flight(measure: Measure) -> None:
+    """Without scattering [eq. 24] is exact in a chain of one cell, which is a path long. Detected mistakes: without the particles below
+    the bins p_0 is a tenth larger at the last time; where |p| n(p) is half of the plateau is e/2 p_0."""
+    times = (20, 60, 200)
+    free = EQUAL | {"nu_left": 1000, "nu_right": 1000, "cells": 1, "cell_length": 1, "gamma": 0}
+    result = measure("particle_count", **free, times=",".join(map(str, times)), replicas=400)
+    middles = np.log(result["weighted_speed_density"].axes["speed"])
+    width = middles[1] - middles[0]
+    edges = np.append(middles, middles[-1] + width) - width / 2
+
+    def density(x: float, time: float) -> float:
+        """Particles per unit of x = ln |p|."""
+        flux = 2 * 1000 * np.sqrt(2 / np.pi / 100) * np.exp(-np.exp(2 * x) / 200)
+        return float(flux * min(1, np.exp(x) * time))
+
+    def number(low: float, high: float, time: float) -> float:
+        return float(quad(density, low, high, (time,), points=[np.clip(-np.log(time), low, high)])[0])
+
+    expected = []
+    for time in times:
+        used = (middles > np.log(10 / time)) & (middles < np.log(0.2 * 10))
+        densities = [number(low, low + width, time) / width for low in edges[:-1][used]]
+        below = edges[edges < np.log(4 / time)][-1]
+        expected.append(np.exp(below - number(-20, below, time) / np.mean(densities)))
+    front = result["front"]
+    assert agree((front.mean - expected) / front.error)
+    assert (np.abs(front.mean - 1.1 * np.array(expected)) > 5 * front.error).all()
+    np.testing.assert_allclose(expected, 1 / (np.e * np.array(times)), rtol=0.02)
 
 
 def test_equilibrium(measure: Measure) -> None:

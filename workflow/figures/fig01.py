@@ -1,7 +1,7 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
 Shown for several distances between scatterers, as the paper states none. Below, the same on logarithmic bins, with the fronts p_0(t),
-and the fronts over lambda/2t, the momentum that crosses half a cell within t.
+and the fronts over lambda/et, where a stationary flux has them.
 """
 
 from collections.abc import Sequence
@@ -62,7 +62,7 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with front p_0; bottom: p_0 over
-        λ/2t, above 1 at λ = {setting.spacing(results[-1])[1]}, as cells filled late. At λ = {setting.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
+        λ/et, above 1 at λ = {setting.spacing(results[-1])[1]}, as cells filled late. At λ = {setting.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
         Bands, bars: standard errors."""
 
 
@@ -78,10 +78,10 @@ def draw(results: Sequence[Result]) -> Drawn:
         plot_times(above, table[table.bins == "momentum"])
         plot_times(middle, table[table.bins == "speed"])
         front = table.drop_duplicates("time")
-        half_cell = front.cell_length / (2 * front.time)
-        middle.errorbar(front.front, front.plateau / 2, xerr=front.front_error, **FRONT, label="$p_0(t)$")
-        ratio = front.front / half_cell
-        below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
+        expected = front.cell_length / (np.e * front.time)
+        middle.errorbar(front.front, front.plateau / np.e, xerr=front.front_error, **FRONT, label="$p_0(t)$")
+        ratio = front.front / expected
+        below.errorbar(front.time, ratio, front.front_error / expected, **FRONT)
         below.axhline(1, **style.GUIDE)
         name = rf"$\lambda = {setting.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
@@ -89,7 +89,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         number_bins(above, result)
         middle.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
         top = 1.3 * max(1, np.nanmax(ratio))
-        below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/2t)$", ylim=(0, top))
+        below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/\mathrm{e}t)$", ylim=(0, top))
     style.letter(*rows[0], lift=26)
     style.letter(*rows[1:].flat, first=len(results))
     figure.legend(

@@ -20,22 +20,21 @@ struct CensusGrid {
 
   std::vector<double> times;  // of the momentum distributions
   Bins bins;
-  /// Logarithmic bins of |p|, from a tenth of one cell length over the last time on, below the front [eq.
-  /// 25].
+  /// Logarithmic bins of |p|, from a tenth of the free path over the last time on, below the front [eq. 25].
   LogGrid speeds;
   LogGrid number_grid;
   std::vector<double> number_times;
-  double cell_length;
+  double free_path;
 
-  CensusGrid(const std::vector<double>& snapshot_times, const Bins& linear, double length_of_cell)
+  CensusGrid(const std::vector<double>& snapshot_times, const Bins& linear, double path)
       : times(snapshot_times),
         bins(linear),
-        speeds(0.1 * length_of_cell / times.back(),
-               std::max(1., std::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell)),
+        speeds(0.1 * path / times.back(),
+               std::max(1., std::log10(10 * bins.edge(bins.count()) * times.back() / path)),
                points_per_decade),
         number_grid(times.back() * std::pow(10, -decades_of_time), decades_of_time, points_per_decade),
         number_times(number_grid.points()),
-        cell_length(length_of_cell) {
+        free_path(path) {
     number_times.back() = times.back();
   }
 };
@@ -46,6 +45,7 @@ struct CensusTallies : TallySchema {
   Tally momentum =
       tally("momentum", {time, p}, "momentum", "Sum of |p| over the particles in a linear bin of p");
   Tally by_speed = tally("by_speed", {time, speed}, "1", "Particles in a logarithmic bin of |p|");
+  Tally slower = tally("slower", {time}, "1", "Particles slower than these bins");
   Tally number = tally("total_number", {number_time}, "1", "Particles inside");
 
   explicit CensusTallies(const CensusGrid& grid)
@@ -66,13 +66,17 @@ class Census {
         highest_(grid.speeds.points().back()),
         linear_(grid.times.size(), Histogram(grid.bins)),
         logarithmic_(grid.times.size(), std::vector<double>(grid.speeds.intervals(), 0)),
+        slower_(grid.times.size(), 0),
         number_(grid.number_times.size(), 0) {}
 
   void on_flight(const Path& path) {
     at_times_.show(path, [&](std::size_t k) {
       const double p = std::abs(path.velocity);
       linear_[k].add(path.velocity, p);
-      if (p >= lowest_ && p < highest_) logarithmic_[k][speeds_.interval(p)] += 1;
+      if (p < lowest_)
+        slower_[k] += 1;
+      else if (p < highest_)
+        logarithmic_[k][speeds_.interval(p)] += 1;
     });
     at_number_times_.show(path, [&](std::size_t k) { number_[k] += 1; });
   }
@@ -83,6 +87,7 @@ class Census {
       sums.set(tallies.momentum.row(k), weights);
       sums.set(tallies.by_speed.row(k), logarithmic_[k]);
     }
+    sums.set(tallies.slower, slower_);
     sums.set(tallies.number, number_);
   }
 
@@ -114,7 +119,7 @@ class Census {
   double lowest_, highest_;
   std::vector<Histogram> linear_;
   std::vector<std::vector<double>> logarithmic_;
-  std::vector<double> number_;
+  std::vector<double> slower_, number_;
 };
 
 }  // namespace lorentz
