@@ -104,7 +104,8 @@ def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
             value = given[name](run, *grids) if callable(given[name]) else given[name]
             mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
             error = relative.get(name, relative["*"]) * np.where(mean == 0, 1, abs(mean))
-            count = np.full(mean.shape, run.options["replicas"]) if run.replicated else None
+            # With a target error the number is not that of the option.
+            count = np.full(mean.shape, run.options["replicas"] + 47) if run.replicated else None
             errors = (error, None) if run.replicated else (None, error)
             quantities[name] = Quantity(mean, *errors, count, along, "1", {}, {}, None)
         return quantities
@@ -119,7 +120,7 @@ def drawn(known: Known, random: np.random.Generator) -> Known:
         quantities = dict(result.quantities)
         for name, exact in result.quantities.items():
             if exact.count is not None and name != "stationary":
-                shape, freedom = exact.mean.shape, result.parameters["replicas"] - 1
+                shape, freedom = exact.mean.shape, result.replicas - 1
                 mean = exact.mean + exact.error * random.standard_normal(shape)
                 error = exact.error * np.sqrt(random.chisquare(freedom, shape) / freedom)
                 quantities[name] = replace(exact, mean=mean, standard_error=error)

@@ -65,7 +65,7 @@ Claim = Callable[[Data], list[Estimate]]
 
 def freedom(*results: Result) -> float:
     """Degrees of freedom of a number that is calculated from these runs: those of the run with the fewest replicas."""
-    return min(int(result.parameters["replicas"]) for result in results) - 1
+    return min(result.replicas for result in results) - 1
 
 
 def by_size(results: Iterable[Result]) -> list[Result]:

@@ -56,7 +56,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         name = str(provenance["target_quantity"])
         for quantity in (name, f"{name}{PLAIN}"):
             if quantity in result.quantities:
-                estimate, count = result[quantity], int(result.parameters["replicas"])
+                estimate, count = result[quantity], result.replicas
                 error = abs(float(estimate.error / estimate.mean))
                 sampled = {"replicas": count, "error_error": error / np.sqrt(2 * (count - 1))}
                 rows.append(row | {"quantity": quantity, "error": error} | sampled)

@@ -93,11 +93,7 @@ def baths(result: Result) -> str:
 
 def replicas(results: Sequence[Result]) -> str:
     """Number of replicas: `64 replicas` or `32 to 64 replicas`."""
-    counts = [
-        int(max(np.max(quantity.replicas) for quantity in result.quantities.values()))
-        for result in results
-        if "replicas" in result.parameters
-    ]
+    counts = [result.replicas for result in results if "seed" in result.parameters]
     low, high = min(counts), max(counts)
     return f"{low} replicas" if low == high else f"{low} to {high} replicas"
 

@@ -153,6 +153,11 @@ class Result:
         return xarray.DataTree.from_dict({"/": xarray.Dataset(attrs=attributes), **datasets})
 
     @property
+    def replicas(self) -> int:
+        """Number of replicas. Raises FormatError for a computed result."""
+        return max(int(quantity.replicas.max(initial=0)) for quantity in self.quantities.values())
+
+    @property
     def converged(self) -> str:
         """State of the target error: reached, not reached, or no target."""
         return str(self.provenance["converged"])
