@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -15,7 +16,7 @@ from tests.python.known_results import plan
 from tests.python.scale import OTHER, ROUNDING, agree
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
-from workflow.lib.load import NOT_REACHED, Result, load
+from workflow.lib.load import NOT_REACHED, Quantity, Result, load
 from workflow.lib.units import UnitsError
 from workflow.pipeline.plan import data_of
 from workflow.pipeline.results import load_panel
@@ -107,6 +108,26 @@ def test_a_figure_is_drawn_in_another_style(smoke: Path, tmp_path: Path) -> None
         figure.savefig(tmp_path / "talk.pdf")
     assert {axes.xaxis.label.get_size() for axes in figure.axes} == {17}
     assert len(table) == len(pd.read_csv(smoke / "figures/smoke/fig08.csv", comment="#"))
+
+
+@pytest.mark.parametrize("panel", PLAN)
+def test_every_panel_is_rendered_from_one_replica(smoke: Path, panel: str) -> None:
+    """REPLICAS=1: no error is known. Detected mistakes: a fit that fails, a mean without weights, an axis without numbers."""
+
+    def alone(quantity: Quantity) -> Quantity:
+        if quantity.count is None:
+            return quantity
+        nothing = np.full_like(quantity.mean, np.nan)
+        return replace(quantity, standard_error=nothing, count=np.ones_like(quantity.count))
+
+    results = [load(smoke / path) for path in data_of(PLAN, panel, "smoke")]
+    single = [
+        replace(result, quantities={name: alone(each) for name, each in result.quantities.items()})
+        for result in results
+    ]
+    figure, _, _ = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw(single)
+    figure.canvas.draw()
+    plt.close("all")
 
 
 def test_columns_without_units_are_refused() -> None:

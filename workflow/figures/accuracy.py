@@ -73,7 +73,7 @@ def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
             marker, color, "white" if plain else None, label=None if plain else f"{symbol}, {program}"
         )
         axes.errorbar(part.cpu_seconds, part.error, part.error_error, **look)
-        law = np.exp(np.average(np.log(part.error * np.sqrt(part.cpu_seconds)), weights=part.replicas - 1))
+        law = np.exp(np.average(np.log(part.error * np.sqrt(part.cpu_seconds)), weights=part.replicas))
         dashes = "dotted" if plain else "solid"
         axes.plot(
             part.cpu_seconds,
@@ -94,7 +94,8 @@ def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
     )
     axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error")
     style.label_within_decades(axes.xaxis)
-    axes.set_ylim(top=30 * table.error.max())  # space for the legend
+    known = table.error.notna().any()  # not with one replica
+    axes.set_ylim(*(None, 30 * table.error.max()) if known else (0.01, 1))  # space for the legend
     axes.legend(loc="upper right", handlelength=1.8)
 
 
@@ -129,7 +130,7 @@ def gain(table: pd.DataFrame, program: str) -> float:
     rows = table[table.program == program]
     most = rows[rows.replicas == rows.replicas.max()]
     plain = most.quantity.str.endswith(PLAIN)
-    return float((most.error[plain].item() / most.error[~plain].item()) ** 2)
+    return float((most.error[plain].mean() / most.error[~plain].mean()) ** 2)
 
 
 @plots("conductivity spreading persistence heat kinetic")

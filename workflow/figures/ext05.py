@@ -77,7 +77,7 @@ def draw_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
 
 
 def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
-    slopes = table.dropna(subset="slope").drop_duplicates("quantity")
+    slopes = table[table.quantity.str.startswith("density_excess")].drop_duplicates("quantity")
     rates = table[table.quantity.isin(SIDES)]
     far = rates.loc[rates.deviation_percent.abs().groupby(rates.gamma, sort=False).idxmax()]
     largest = listed(

@@ -41,7 +41,9 @@ LAWS = {
 
 
 def fitted(law: Law, size: np.ndarray, value: np.ndarray, error: np.ndarray) -> np.ndarray:
-    """Values at the sizes of the law that fits best, by weighted least squares."""
+    """Values at the sizes of the law that fits best, by weighted least squares; nan if an error is unknown."""
+    if not np.isfinite(error).all():
+        return np.full(len(size), np.nan)
     design = np.stack(law.basis(size), axis=1)
     solution, *_ = np.linalg.lstsq(design / error[:, None], value / error, rcond=None)
     return design @ solution
