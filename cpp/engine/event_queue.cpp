@@ -75,10 +75,9 @@ std::uint32_t EventQueue::take_first_of(std::uint32_t& bucket, double until) {
   return std::exchange(*first, lists_.next(*first));
 }
 
-/// False if the next revolution begins after `until` or after the end. Rebuilds the wheel if the rate of
-/// events is far from what was planned or the population has doubled.
+/// False if the next revolution begins after `until`, which is not after the end. Rebuilds the wheel if the
+/// rate of events is far from what was planned or the population has doubled.
 bool EventQueue::begin_revolution(double until) {
-  until = std::min(until, end_time_);
   if (tick_of(until) < revolution_end_) return false;
   const double planned = events_per_bucket * static_cast<double>(bucket_mask_ + 1);
   const double ratio = static_cast<double>(taken_ - std::exchange(counted_from_, taken_)) / planned;

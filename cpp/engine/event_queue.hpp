@@ -32,10 +32,13 @@ class EventQueue {
   class Cursor {
    public:
     explicit Cursor(EventQueue& queue) : queue_(queue) { load(); }
+    Cursor(const Cursor&) = delete;
+    Cursor& operator=(const Cursor&) = delete;
 
     /// Takes every flight that arrives before `until`, in order, and calls arrive(flight, cursor), which may
     /// return it by reschedule(). `until` must not decrease from call to call. every_revolution(time) is
-    /// called when the revolution has no flight left, with its end, which may exceed `until`.
+    /// called when the revolution has no flight left, with its end, which may exceed `until`. After an
+    /// exception of either the queue is unspecified and may only be destroyed.
     template <class Arrive, class EveryRevolution>
     [[gnu::always_inline]] void take_before(double until, const Arrive& arrive,
                                             const EveryRevolution& every_revolution) {

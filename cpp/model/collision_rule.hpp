@@ -38,6 +38,7 @@ struct RuleProperties {
   InvariantMeasure invariant;
   bool kinetic_equation;                  // whether the program boltzmann solves its kinetic equation
   std::span<const RuleOption> options{};  // arguments of its constructor, after sigma
+  bool (*is_elastic)(std::span<const double> values) = nullptr;  // whether these options make it Elastic
 };
 
 /// A rule by name, with the values of its options in their order.

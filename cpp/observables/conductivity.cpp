@@ -36,8 +36,8 @@ std::string reason_without_kappa(const OpenChain& chain) {
   if (chain.gamma == 0) return "no particle is scattered; choose a --gamma above 0";
   if (std::abs(chain.sigma) == 1)
     return "scatterers of mass 0 or infinity exchange no energy; choose a --sigma between -1 and 1";
-  const bool elastic = rule_properties(chain.rule.name).conserves_momentum ||
-                       chain.rule.options == std::vector{0.};  // a reversal that never happens
+  const RuleProperties& rule = rule_properties(chain.rule.name);
+  const bool elastic = rule.conserves_momentum || (rule.is_elastic && rule.is_elastic(chain.rule.options));
   if (chain.sigma == 0 && elastic)
     return "equal masses only exchange momenta, so that no gradient of temperature forms; choose another "
            "--sigma";

@@ -107,7 +107,8 @@ Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
   Group::Prepared reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
-  return possible ? reduced : Group::Prepared{plain, false};
+  return possible ? reduced
+                  : Group::Prepared{plain, ControlVariates{false, reduced.control_variates->needed}};
 }
 
 std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallies) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>  // compiles slowly: included here alone
 
+#include "program/stopping_rule.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -70,8 +72,10 @@ std::string describe(const Options& options, const std::string& description,
               {"description", description},
               {"options", {{"type", "object"}, {"additionalProperties", false}}},
               {"quantities", Json::array()}};
-  for (const Option& option : options.all())
+  for (const Option& option : options.all()) {
+    if (option.name == "--replicas") result["least_replicas"] = StoppingRule::least;
     result["options"]["properties"][option.name.substr(2)] = schema_of(option);
+  }
   for (const Description& what : quantities) {
     Json& quantity = result["quantities"].emplace_back(named(what));
     quantity["axes"] = Json::array();

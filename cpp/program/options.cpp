@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "program/errors.hpp"
@@ -70,6 +71,21 @@ AttributeValue recorded(const Option&, const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(values, ","));
 }
 AttributeValue recorded(const Option&, const auto& value) { return value; }
+
+/// The least number of characters to insert, delete or replace in one word to make the other.
+std::size_t edit_distance(const std::string& one, const std::string& other) {
+  std::vector<std::size_t> row(other.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (const char character : one) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      const std::size_t replaced = diagonal + (character == other[k] ? 0 : 1);
+      diagonal = row[k + 1];
+      row[k + 1] = std::min({replaced, diagonal + 1, row[k] + 1});
+    }
+  }
+  return row.back();
+}
 
 }  // namespace
 
@@ -138,6 +154,12 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string what = error.what();
     refuse(what.substr(0, what.find(':')) + " needs a value");
+  } catch (const CLI::ExtrasError&) {
+    const std::string word = app_->remaining().front(), name = word.substr(0, word.find('='));
+    const auto distance = [&](const Option& option) { return edit_distance(name, option.name); };
+    const Option& nearest = *std::ranges::min_element(options_, {}, distance);
+    if (3 * distance(nearest) > name.size()) refuse(word + " is not an option");
+    throw UsageError(fmt::format("{} is not an option; did you mean {}?", name, nearest.name));
   } catch (const CLI::ParseError& error) {
     refuse(error.what());
   }
@@ -155,7 +177,18 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
     words_ += (words_.empty() ? "" : " ") + word;
     if (name == word && !option->is_flag()) words_ += ' ' + std::string(argv[++i]);
   }
+  constexpr std::size_t most = 60'000;  // an attribute of an HDF5 file has at most 64 kB
+  std::size_t length = 0;
+  for (const Parameter& each : parameters()) length += each.name.size() + as_text(each.value).size();
+  if (length = std::max(length, words_.size()); length > most)
+    throw UsageError(fmt::format(
+        "the options take {} characters, more than the {} that a result can state. Give shorter lists.",
+        length, most));
   return {};
+}
+
+void Options::omit(const std::string& name) {
+  std::ranges::find(options_, name, &Option::name)->role = Role::runtime;
 }
 
 std::vector<Parameter> Options::parameters() const {

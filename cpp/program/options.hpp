@@ -118,6 +118,9 @@ class Options {
   std::optional<std::string> parse(int argc, const char* const* argv, const std::string& version,
                                    const std::function<std::string()>& footer);
 
+  /// Leaves an option out of parameters(): others determine the result.
+  void omit(const std::string& name);
+
   /// Words of the command line for options that determine the result, as they were given, separated by
   /// spaces: a part of the result's identity (workflow/pipeline/sources.py).
   const std::string& words() const { return words_; }

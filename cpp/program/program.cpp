@@ -61,7 +61,7 @@ void write_quantity(Hdf5Writer& file, const Quantity& quantity) {
   for (const Axis& axis : axes) file.axis(group, axis);
   file.array(group, {"mean", units, description, axes}, quantity.mean);
   if (quantity.control_variates)
-    file.attribute(group + "/mean", "control_variates", *quantity.control_variates);
+    file.attribute(group + "/mean", "control_variates", quantity.control_variates->used);
   if (quantity.count.empty()) {
     const auto* error = "Difference from a coarser discretisation, and rounding";
     file.array(group, {"discretisation_error", units, error, axes}, quantity.standard_error);

@@ -21,8 +21,8 @@ namespace lorentz {
 struct StoppingRule {
   static constexpr std::uint64_t least = 64;  // replicas needed to reach a target
 
-  std::uint64_t batch;  // replicas are added in whole batches
-  std::uint64_t most;   // largest number of replicas, but at least one batch
+  std::uint64_t batch = 16;        // replicas are added in whole batches
+  std::uint64_t most = 1'000'000;  // largest number of replicas, but at least one batch
 
   /// Number of replicas at the next look: `least` first, then one batch more, later an eighth more, because
   /// the time of a jackknife is proportional to the number of replicas.

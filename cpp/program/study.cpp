@@ -49,7 +49,7 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
   Options& options = this->options();
   constexpr auto runtime = Options::Role::runtime;
   options.integer("--replicas", replicas_, {1, 100'000'000},
-                  "Independent replicas; with a target error, replicas per batch");
+                  "Independent replicas; not with a target error, which determines their number");
   options.integer("--seed", seed_, {},
                   "Key of all random streams; runs with the same seed have correlated results, so give each "
                   "run of a scan its own");
@@ -66,6 +66,12 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
                "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
   options.flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
   const auto plan = [&] {
+    if (target_error_ > 0) {
+      if (options.given("--replicas"))
+        throw UsageError(
+            "--replicas, --target-error: both determine the number of replicas. Give one of them.");
+      options.omit("--replicas");
+    }
     study_ = make();
     return quantities();
   };
@@ -110,7 +116,7 @@ void StudyProgram::prepare() {
 
 ExitStatus StudyProgram::compute() try {
   prepare();
-  const StoppingRule rule{.batch = replicas_, .most = most_replicas};
+  const StoppingRule rule;
   const std::uint64_t threads = threads_.value_or(std::max(1U, std::thread::hardware_concurrency()));
   needed_ = target_error_ > 0 ? rule.next_look(0) : replicas_;
   for (std::uint64_t wanted = needed_;; wanted = rule.next_look(wanted)) {
@@ -119,12 +125,12 @@ ExitStatus StudyProgram::compute() try {
     in_threads(1, [&] { outcome = estimate(wanted); });
     const bool constant = quantity_named(outcome.results, study_.target).standard_error.front() == 0;
     const bool last =
-        outcome.convergence != Convergence::not_reached || constant || wanted + replicas_ > most_replicas;
+        outcome.convergence != Convergence::not_reached || constant || rule.next_look(wanted) > rule.most;
     const double excess = outcome.achieved_error / target_error_;
     if (!last && std::isfinite(excess)) {  // the error falls as the inverse square root of the number
       const double expected = static_cast<double>(wanted) * excess * excess;
       needed_ = std::max(rule.next_look(wanted),
-                         static_cast<std::uint64_t>(std::min<double>(expected, most_replicas)));
+                         static_cast<std::uint64_t>(std::min(expected, static_cast<double>(rule.most))));
     }
     report(outcome, wanted);
     if (!last) continue;
@@ -178,6 +184,7 @@ void StudyProgram::measure(std::uint64_t end) {
   double completed = 0;
   const auto heartbeat = [&](double part) {
     if (failed_) throw Abandoned();
+    part = std::min(part, 1.);  // a revolution of the queue may end after the run
     const std::scoped_lock lock(mutex_);
     in_progress_ += part - std::exchange(completed, part);
   };
@@ -209,7 +216,7 @@ void StudyProgram::show_progress() {
 bool StudyProgram::save(const std::string& prefix) try {
   checkpoint_.save(finished_);
   return true;
-} catch (const UsageError& error) {
+} catch (const std::exception& error) {
   program_.progress().warn(prefix + error.what());
   return false;
 }
@@ -266,6 +273,14 @@ void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
     program_.progress().say(fmt::format("standard errors from {} are uncertain by about {:.0f} %",
                                         counted(replicas),
                                         100 / std::sqrt(2.0 * static_cast<double>(replicas - 1))));
+  std::size_t needed = 0;
+  for (const Quantity& each : outcome.results)
+    if (each.control_variates) needed = std::max(needed, each.control_variates->needed);
+  if (replicas < needed)
+    program_.progress().say(fmt::format(
+        "without control variates, which need {} replicas, errors are larger, often several times; "
+        "choose more --replicas",
+        needed));
 }
 
 }  // namespace lorentz

@@ -61,10 +61,8 @@ class StudyProgram {
 
   Program program_;
 
-  // Options. Without a target error a run has `replicas_` replicas; with one, batches of that size are added
-  // until the StoppingRule is met.
-  static constexpr std::uint64_t most_replicas = 1'000'000;  // with a target error, but at least one batch
-  std::uint64_t replicas_ = 16, seed_ = 1;
+  // Options. A run has `replicas_` replicas or, with a target error, as many as the StoppingRule needs.
+  std::uint64_t replicas_ = 32, seed_ = 1;
   std::optional<std::uint32_t> threads_{};  // none: one for each processor
   double target_error_ = 0;                 // 0: none
   double target_scale_ = 0;                 // 0: the target quantity's mean

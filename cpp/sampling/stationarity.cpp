@@ -45,7 +45,7 @@ Group stationarity(const DriftTallies& tallies) {
     const Columns controls = columns_of({tallies.injection});
     const Group::Prepared halves = reduce_variance(records, {{tallies.halves(), controls}});
     const double of_halves = smallest_p_value(halves.records, tallies.halves(),
-                                              *halves.control_variates ? controls.size() : 0),
+                                              halves.control_variates->used ? controls.size() : 0),
                  of_energy = smallest_p_value(records, columns_of({tallies.energy}), 0);
     // Half of the level for each, NaN left out.
     const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);

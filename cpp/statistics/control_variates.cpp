@@ -13,10 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {
-  if (records.size() == 0 || regression.controls.empty()) return {};
+  const std::size_t needed = records_needed(records, regression.controls);
+  if (needed == 0 || records.size() < needed) return {};
   const MatrixXd x = standardised(records, regression.controls), x_centred = centred(x);
-  const Index rows = x.rows(), varying = (x.colwise().squaredNorm().array() > 0).count();
-  if (varying == 0 || rows < std::max(3 * varying, varying + 8)) return {};
+  const Index rows = x.rows();
 
   // Column i of the gain: g_i [eq. 34].
   const MatrixXd gain = pseudo_inverse(x_centred).matrix;
@@ -37,6 +37,13 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
     for (Index i = 0; i < rows; ++i) reduced[static_cast<std::size_t>(i)][k] = corrected(i);
   }
   return reduced;
+}
+
+std::size_t records_needed(const Records& records, const Columns& controls) {
+  if (records.size() == 0 || controls.empty()) return 0;
+  const auto varying =
+      static_cast<std::size_t>((standardised(records, controls).colwise().squaredNorm().array() > 0).count());
+  return varying > 0 ? std::max(3 * varying, varying + 8) : 0;
 }
 
 double variance_ratio(const Records& a, const Records& b, const Columns& columns) {
@@ -60,7 +67,9 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
   constexpr double determined = 1e-12;
   Records reduced = records;
   Columns measured;
+  std::size_t needed = 0;
   for (const Regression& regression : regressions) {
+    needed = std::max(needed, records_needed(records, regression.controls));
     const std::optional<Records> corrected = regress_out(records, regression);
     if (!corrected) continue;
     for (std::size_t k = 0; k < corrected->width(); ++k) {
@@ -74,7 +83,7 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
   }
   const bool used = !measured.empty() && variance_ratio(reduced, records, measured) < 1;
   if (!used) reduced = records;
-  return {std::move(reduced), used};
+  return {std::move(reduced), ControlVariates{used, needed}};
 }
 
 }  // namespace lorentz

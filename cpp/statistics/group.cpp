@@ -20,7 +20,7 @@ std::size_t size_of(const std::vector<Description>& descriptions) {
 
 /// Appends the described quantities, whose values follow one another from `at` on, which is moved past them.
 void append(Results& results, const std::vector<Description>& what, const Estimate& estimate, std::size_t& at,
-            std::uint64_t replicas, std::optional<bool> control_variates) {
+            std::uint64_t replicas, const std::optional<ControlVariates>& control_variates) {
   for (const Description& each : what) {
     const auto begin = static_cast<std::ptrdiff_t>(at),
                end = begin + static_cast<std::ptrdiff_t>(each.size());

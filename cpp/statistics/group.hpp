@@ -13,12 +13,18 @@
 
 namespace lorentz {
 
+/// Whether control variates were used, and the number of replicas that they need.
+struct ControlVariates {
+  bool used = false;
+  std::size_t needed = 0;
+};
+
 /// Estimate of a described array.
 struct Quantity {
   Description what;
   std::vector<double> mean, standard_error;  // 0: all replicas agree; if computed: discretisation error
   std::vector<std::uint64_t> count{};        // replicas that contribute; empty if computed
-  std::optional<bool> control_variates{};    // whether they were used; none if there are none
+  std::optional<ControlVariates> control_variates{};
 };
 
 using Results = std::vector<Quantity>;
@@ -46,7 +52,7 @@ class Group {
   /// corrected by control variates.
   struct Prepared {
     Records records;
-    std::optional<bool> control_variates{};
+    std::optional<ControlVariates> control_variates{};
   };
   using Prepare = std::function<Prepared(const Records&)>;
 

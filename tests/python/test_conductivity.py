@@ -10,6 +10,16 @@ from tests.python.conftest import Program
 from workflow.lib.load import load
 
 
+@pytest.mark.parametrize(("gamma", "needed"), [("N", 18), (1, 24)])
+def test_control_variates_need_replicas(program: Program, tmp_path: Path, gamma: object, needed: int) -> None:
+    """max(3k, k + 8) for the six of the injections, and two of the end scatterers if not every particle is scattered."""
+    for replicas in (needed - 1, needed):
+        done = program("conductivity", gamma=gamma, replicas=replicas, progress="log")
+        used = load(tmp_path / "out.h5")["energy_current"].control_variates
+        assert used == (replicas == needed)
+        assert (f"control variates, which need {needed} replicas" in done.stderr) != used
+
+
 @pytest.mark.parametrize(
     ("options", "remedy"),
     [

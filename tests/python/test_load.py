@@ -58,7 +58,9 @@ def test_xarray_and_frame(path: Path) -> None:
         for name in frame:
             np.testing.assert_array_equal(dataset[name], file[FLUX][name])
             units, description = (file[FLUX][name].attrs[key].decode() for key in ("units", "description"))
-            assert dataset[name].attrs == {"units": units, "description": description}
+            used = {"control_variates": file[FLUX]["mean"].attrs["control_variates"]}
+            own = used if name == "mean" else {}
+            assert dataset[name].attrs == {"units": units, "description": description, **own}
             assert (frame.attrs["units"][name], frame.attrs["description"][name]) == (units, description)
         bond, momentum = file[FLUX]["bond"][1], file[FLUX]["momentum"][2]
         row = frame[(frame.bond == bond) & (frame.momentum == momentum)]

@@ -8,7 +8,7 @@ from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT
 from workflow.pipeline.configuration import CONFIGURATION, ConfigurationError, Options
-from workflow.pipeline.plan import BATCH, QUALITIES, Run, Selection, load_plan
+from workflow.pipeline.plan import QUALITIES, Run, Selection, load_plan
 from workflow.pipeline.program import threads_of
 
 
@@ -65,13 +65,16 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     quality = Selection.of("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
     completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
-    given = {key: completed[key] for key in ("replicas", "target-error", "target-scale")}
-    assert given == {"replicas": BATCH, "target-error": 0.005, "target-scale": 200}
+    assert {key: completed[key] for key in completed if key != "seed"} == {
+        "sigma": 0,
+        "target-error": 0.005,
+        "target-scale": 200,
+    }
 
 
 def test_threads_share_the_replicas() -> None:
     efforts: list[Options] = [{}, {"replicas": 63}, {"replicas": 320}, {"replicas": 10**6}]
-    efforts.append({"replicas": BATCH, "target-error": 0.1})  # at least 64 replicas
+    efforts.append({"target-error": 0.1})  # at least 64 replicas
     assert [threads_of(Run("paper", "persistence", effort)) for effort in efforts] == [1, 1, 10, 16, 2]
 
 
@@ -79,13 +82,13 @@ def test_threads_share_the_replicas() -> None:
     ("effort", "replicas", "errors"),
     [
         ("", {4}, set()),
-        ("  fig05: {error: 0.1, dense: {replicas: 2}}", {BATCH, 2}, {0.1}),
-        ("  fig05: {replicas: 8, dense: {error: 0.2}}", {BATCH, 8}, {0.2}),
+        ("  fig05: {error: 0.1, dense: {replicas: 2}}", {None, 2}, {0.1}),
+        ("  fig05: {replicas: 8, dense: {error: 0.2}}", {None, 8}, {0.2}),
         ("  fig05: {omit: [dense]}", {4}, set()),
     ],
 )
 def test_effort_of_quality_panel_and_series(
-    tmp_path: Path, effort: str, replicas: set[int], errors: set[float]
+    tmp_path: Path, effort: str, replicas: set[int | None], errors: set[float]
 ) -> None:
     folder = Path(shutil.copytree(CONFIGURATION, tmp_path / "config"))
     smoke = (folder / "quality/smoke.yaml").read_text()
@@ -93,7 +96,7 @@ def test_effort_of_quality_panel_and_series(
     assert former in smoke
     (folder / "quality/smoke.yaml").write_text(smoke.replace(former, effort))
     runs = load_plan("smoke", folder)["fig05"].runs
-    assert {run.options["replicas"] for run in runs} == replicas
+    assert {run.options.get("replicas") for run in runs} == replicas
     assert {run.options["target-error"] for run in runs if "target-error" in run.options} == errors
     assert any(run.name.startswith("dense") for run in runs) == ("omit" not in effort)
 

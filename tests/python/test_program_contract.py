@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program
-from workflow.lib.load import load
+from workflow.lib.load import ALL_AGREE, load
 from workflow.pipeline.described import declared
 
 
@@ -33,11 +33,12 @@ def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> Non
 
 @pytest.mark.parametrize("targeted", [True, False])
 def test_there_is_no_error_where_no_particle_turns(program: Program, tmp_path: Path, targeted: bool) -> None:
-    target = {"target_error": 0.1} if targeted else {}
+    target = {"target_error": 0.1, "replicas": None} if targeted else {}
     result = program("persistence", **target, sigma=-0.999999, observation_time=0.1)
     assert result.returncode == (4 if targeted else 0)
     stored = load(tmp_path / "out.h5")
     assert stored.converged == ("not reached" if targeted else "no target")
+    assert stored.doubts == ([f"target error not reached: {ALL_AGREE}"] if targeted else [])
     assert stored["mu"].mean == 1
     assert np.isnan([stored["mu"].standard_error, stored.provenance["achieved_error"]]).all()
 

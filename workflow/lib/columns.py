@@ -23,6 +23,7 @@ BY_ROW = "column "
 def inherited(results: Sequence[Result]) -> dict[str, str]:
     """Units by name from the result files, without names that have several units."""
     by_name: dict[str, set[str]] = defaultdict(set)
+    by_name["replicas"] = {"1"}  # no parameter of results with a target error
     for result in results:
         for name, quantity in result.quantities.items():
             by_name[name].add(quantity.units)

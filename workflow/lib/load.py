@@ -33,6 +33,7 @@ REMEDY = "; remove it and make it again"
 NOT_REACHED = "not reached"
 UNDEFINED = "target quantity not defined"
 NOT_TESTED = "stationarity not tested"
+ALL_AGREE = "all replicas agree, so that no error is known"
 VALUES = (
     "mean",
     "standard_error",
@@ -76,10 +77,12 @@ class Quantity:
         return _measured(self.count)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Mean, errors and count over the axes, each with the attributes units and description."""
+        """Mean, errors and count over the axes, each with the attributes units and description, and control_variates of the mean."""
         import xarray  # noqa: PLC0415  # 0.5 s, not needed for figures
 
-        attributes = self._attributes()
+        attributes: dict[str, dict[str, Any]] = {**self._attributes()}
+        if self.control_variates is not None:
+            attributes["mean"]["control_variates"] = int(self.control_variates)  # netCDF has no bool
         values = {name: (tuple(self.axes), array, attributes[name]) for name, array in self.arrays().items()}
         axes = {name: (name, array, attributes[name]) for name, array in self.axes.items()}
         return xarray.Dataset(values, axes)
@@ -167,10 +170,11 @@ class Result:
         """Reasons to doubt the numbers: a missed target error, a target quantity that is NaN, a window that is not stationary or was not tested."""
         reasons = []
         target = self.quantities.get(self.provenance.get("target_quantity", ""))
-        if self.converged == NOT_REACHED:
-            reasons.append("target error not reached")
-        elif target is not None and np.isnan(target.mean).any():
+        if target is not None and np.isnan(target.mean).any():
             reasons.append(UNDEFINED)
+        elif self.converged == NOT_REACHED:
+            agree = target is not None and target.count is not None and np.isnan(target.error).any()
+            reasons.append("target error not reached" + (f": {ALL_AGREE}" if agree else ""))
         if "stationary" in self.quantities:
             tested = self.quantities.get("drift_p_value")
             if tested is not None and np.isnan(tested.mean):

@@ -44,7 +44,6 @@ REPORT_SOURCES = (
     "data/claims.csv",
     *SHARED,
 )
-BATCH = 16  # replicas between two checks of a target error
 OVERRIDES: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
     "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
     "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
@@ -64,7 +63,7 @@ class Run:
     @property
     def replicated(self) -> bool:
         """Whether the program has random numbers, hence a seed and replicas."""
-        return "replicas" in self.options
+        return "seed" in self.options
 
     @property
     def options_text(self) -> str:
@@ -142,7 +141,7 @@ class Selection:
         if error is None:
             own["replicas"] = replicas
         else:
-            own |= {"replicas": BATCH, "target-error": error}
+            own["target-error"] = error
             own |= {} if scale is None else {"target-scale": scale}
         names = f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}"
         return own | {"seed": seed_of(names)}

@@ -9,14 +9,13 @@ from pathlib import Path
 
 from workflow.lib.identity import ROOT
 from workflow.pipeline.configuration import Options, arguments
-from workflow.pipeline.described import DESCRIPTIONS, BuildError
+from workflow.pipeline.described import DESCRIPTIONS, BuildError, described
 from workflow.pipeline.plan import Run
 from workflow.pipeline.sources import programs, source_hash
 
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
 REPLICAS_PER_THREAD, MOST_THREADS = 32, 16
-LEAST_REPLICAS = 64  # replicas of a run with a target error, as StoppingRule::least in cpp/program
 
 
 class ProgramError(ValueError):
@@ -55,8 +54,8 @@ def build() -> None:
 
 def threads_of(run: Run) -> int:
     """Threads among which the replicas of a run are divided without waste."""
-    replicas = LEAST_REPLICAS if "target-error" in run.options else int(run.options.get("replicas", 1))
-    return max(1, min(MOST_THREADS, replicas // REPLICAS_PER_THREAD))
+    least = described()[run.program].get("least_replicas", 1) if "target-error" in run.options else 1
+    return max(1, min(MOST_THREADS, int(run.options.get("replicas", least)) // REPLICAS_PER_THREAD))
 
 
 def command_line(run: Run, threads: int = 1) -> list[str]:

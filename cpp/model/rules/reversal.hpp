@@ -20,7 +20,8 @@ class Reversal : public Elastic {
       .conserves_momentum = false,
       .invariant = InvariantMeasure::maxwellian,
       .kinetic_equation = false,
-      .options = options};
+      .options = options,
+      .is_elastic = [](std::span<const double> values) { return values[0] == 0; }};
 
   Reversal(double sigma, double probability) : Elastic(sigma), probability_(probability) {}
 

@@ -136,18 +136,22 @@ struct StudyTest : testing::Test {
   }
 };
 
-// 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 8 replicas.
+// 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 16 replicas.
 TEST_F(StudyTest, StopsAtTheTargetErrorOnABatchBoundary) {
-  const Arguments target{"--replicas", "8", "--target-error", "0.02"};
+  const Arguments target{"--target-error", "0.02"};
   EXPECT_EQ(run(with(to_output, target)), 0);
   EXPECT_TRUE(has("reached"));
   const std::uint64_t count = replicas_in(output);
   EXPECT_GT(count, 66U);
-  EXPECT_EQ(count % 8, 0U);
+  EXPECT_EQ(count % 16, 0U);
+  EXPECT_FALSE(
+      Hdf5Reader(output).has_attribute("/parameters", "replicas", std::uint64_t{32}));  // the default
+  expect_refused_run(with(to_output, {"--overwrite", "--target-error", "0.02", "--replicas", "8"}),
+                     "--replicas");
   EXPECT_TRUE(StoppingRule::reached(count, error() / mean() / 0.02));
   expect_same_bytes_as(with(target, {"--threads", "7"}));
-  EXPECT_EQ(run({"--output", output, "--overwrite", "--replicas", std::to_string(count - 8)}), 0);
-  EXPECT_FALSE(StoppingRule::reached(count - 8, error() / mean() / 0.02));
+  EXPECT_EQ(run({"--output", output, "--overwrite", "--replicas", std::to_string(count - 16)}), 0);
+  EXPECT_FALSE(StoppingRule::reached(count - 16, error() / mean() / 0.02));
   EXPECT_EQ(run({"--output", output, "--overwrite", "--target-error", "10"}), 0);
   EXPECT_EQ(replicas_in(output), 64U);  // the least number with a target
 }
@@ -173,14 +177,14 @@ TEST_F(StudyTest, GoesOnWithoutACheckpoint) {
   };
   EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), slow), 0);
   expect_complaint("a.h5.checkpoint");  // once
-  EXPECT_EQ(replicas_in(output), 16U);
+  EXPECT_EQ(replicas_in(output), 32U);  // the default
   EXPECT_EQ(run(with(to_output, {"--overwrite"}), failing_at(5)), 3);
   EXPECT_NE(complaints.find("not saved"), std::string::npos) << complaints;
 }
 
 TEST_F(StudyTest, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   const auto obstruct = [&](const Replica& replica) {
-    if (replica.key.replica == 15) std::filesystem::create_directory(output);
+    if (replica.key.replica == 31) std::filesystem::create_directory(output);
     return measure(replica);
   };
   EXPECT_EQ(run(to_output, obstruct), 2);
@@ -191,23 +195,23 @@ TEST_F(StudyTest, KeepsTheReplicasOfResultsThatCannotBeWritten) {
 }
 
 TEST_F(StudyTest, ResumesToEqualBytes) {
-  EXPECT_EQ(run(to_output, failing_at(5)), 3);
+  EXPECT_EQ(run(to_output, failing_at(21)), 3);
   EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
-  EXPECT_EQ(run(with(to_output, {"--resume"}), failing_at(9)), 3);
+  EXPECT_EQ(run(with(to_output, {"--resume"}), failing_at(25)), 3);
   Indices measured;
   const auto remember = [&](const Replica& replica) {
     measured.push_back(replica.key.replica);
     return measure(replica);
   };
   EXPECT_EQ(run(with(to_output, {"--resume"}), remember), 0);
-  EXPECT_EQ(measured, (Indices{9, 10, 11, 12, 13, 14, 15}));
+  EXPECT_EQ(measured, (Indices{25, 26, 27, 28, 29, 30, 31}));
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
   expect_same_bytes_as({"--resume"});  // without a checkpoint
 }
 
-// Looks take place only where an uninterrupted run has them: after 64, 72, 80, ... replicas.
+// Looks take place only where an uninterrupted run has them: after 64, 80, 96, ... replicas.
 TEST_F(StudyTest, ResumesToTheSameBatchBoundary) {
-  const Arguments target{"--replicas", "8", "--target-error", "0.02"};
+  const Arguments target{"--target-error", "0.02"};
   EXPECT_EQ(run(with(to_output, target), failing_at(73)), 3);
   EXPECT_EQ(run(with(with(to_output, target), {"--resume"})), 0);
   expect_same_bytes_as(target);
@@ -298,7 +302,7 @@ TEST_F(StudyTest, SignalsEndTheRunWithACheckpoint) {
   };
   EXPECT_EXIT(run_program(with(to_output, {"--overwrite"}), estimating),
               testing::ExitedWithCode(128 + SIGINT), "");
-  EXPECT_EQ(replicas_kept(output).size(), 16U);
+  EXPECT_EQ(replicas_kept(output).size(), 32U);
   EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 
