@@ -81,7 +81,7 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
     "results": (
         [edit_value, remove(OTHER_MU), exchange], "status", 1,
         [
-            ("edited", MU, "differ from those written"),
+            ("edited", MU, "edited or damaged"),
             ("missing", OTHER_MU, ""),
             ("edited", FEW, "that of another result"),
         ],
