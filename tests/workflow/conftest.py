@@ -45,7 +45,7 @@ from workflow.lib.figure import main
 
 def draw(results):
     figure, _ = plt.subplots()
-    return figure, pd.DataFrame({"replicas": [result.parameters["replicas"] for result in results]}), "A test."
+    return figure, pd.DataFrame({"replicas": [result.replicas for result in results]}), "A test."
 
 
 if __name__ == "__main__":

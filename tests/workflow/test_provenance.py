@@ -186,6 +186,8 @@ def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
     for printed in (independent, shared):
         assert "2 of 2 results agree with those of smoke (p > 0.0001)\nLargest difference: " in printed
     assert ("shared" in independent, "shared" in shared) == (False, True)
+    project.entry("panel", "PANEL=mu", "ERROR=0.5")
+    assert (project.folder / "figures/smoke_error=0.5/mu.csv").read_text().splitlines()[-2:] == ["64"] * 2
     (kept,) = project.folder.glob("data/smoke_seed=7/mu/all_sigma=0.5.*.h5")
     assert "panel mu, quality smoke_seed=7" in provenance(project, kept)
     former = kept.rename(kept.with_name("former.0123456789ab.h5"))

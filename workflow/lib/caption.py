@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from workflow.lib.load import Result
+from workflow.lib.load import NOT_STATIONARY, Result
 
 SYMBOLS = {
     "cells": "N = {}",
@@ -28,6 +28,7 @@ PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
 RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 BASE = 10
+FEW = 3  # runs that are named one by one
 ERRORS = "Bars: standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -80,6 +81,13 @@ def with_rules(caption: str, results: Sequence[Result]) -> str:
     rules = dict.fromkeys(rule(result) for result in results if "rule" in result.parameters)
     missing = [name for name in rules if name != "elastic" and name.partition(" (")[0] not in caption]
     return f"{caption} Collision rule: {listed(missing)}." if missing else caption
+
+
+def with_doubts(caption: str, results: Sequence[Result]) -> str:
+    """The caption, with a sentence on results whose window was not stationary. Panels with a point for each also cross them out."""
+    drifting = [result.run for result in results if NOT_STATIONARY in result.doubts]
+    names = listed(drifting) if 0 < len(drifting) <= FEW else f"{len(drifting)} runs"
+    return f"{caption} Not stationary: {names}." if drifting else caption
 
 
 def baths(result: Result) -> str:

@@ -20,7 +20,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import listed, with_rules
+from workflow.lib.caption import listed, with_doubts, with_rules
 from workflow.lib.columns import as_csv, inherited
 from workflow.lib.identity import ROOT, SHARED, named_identity, panel_identity, sources_of_panel
 from workflow.lib.load import REMEDY, FormatError, Result, load
@@ -147,7 +147,8 @@ def main(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: st
         sys.exit(str(error))
     shown = draw.shown(results) if isinstance(draw, Plot) else results
     own = [result for result in shown if result.path.parent.name == panel] or shown
-    text = Text(title if isinstance(title, str) else title(shown), with_rules(" ".join(caption.split()), own))
+    whole = with_doubts(with_rules(" ".join(caption.split()), own), own)
+    text = Text(title if isinstance(title, str) else title(shown), whole)
     save(figure, saved, options.output, text, Parents(name, options.data, sources))
 
 

@@ -33,6 +33,7 @@ REMEDY = "; remove it and make it again"
 NOT_REACHED = "not reached"
 UNDEFINED = "target quantity not defined"
 NOT_TESTED = "stationarity not tested"
+NOT_STATIONARY = "not stationary"
 ALL_AGREE = "all replicas agree, so that no error is known"
 VALUES = (
     "mean",
@@ -180,7 +181,7 @@ class Result:
             if tested is not None and np.isnan(tested.mean):
                 reasons.append(NOT_TESTED)
             elif self["stationary"].mean != 1:
-                reasons.append("not stationary")
+                reasons.append(NOT_STATIONARY)
         return reasons
 
     @property
