@@ -76,7 +76,7 @@ onstart:
     stop_at_first_signal()
 
 
-# All, or those of --config panel="fig05 fig08". Without outputs it is always executed: it copies what is missing or edited in
+# All panels, or --config panel="fig05 fig08". Without outputs it is always executed: it copies missing and edited files to
 # figures/<quality>.
 rule figures:
     input:

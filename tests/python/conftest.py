@@ -12,7 +12,7 @@ from scipy.stats import chi2, norm
 
 from workflow.lib.load import Result, load
 from workflow.pipeline.configuration import arguments
-from workflow.pipeline.described import declared
+from workflow.pipeline.described import options_of_programs
 
 ROOT = Path(__file__).parents[2]
 T = TypeVar("T")
@@ -42,7 +42,9 @@ def soon(find: Callable[[], T], seconds: float = 300) -> T:
 
 def small(program: str) -> dict[str, object]:
     """Options with which a program, also one of the user, runs for a fraction of a second."""
-    return NAMED.get(program, {name: GENERAL[name] for name in GENERAL if name in declared()[program]})
+    return NAMED.get(
+        program, {name: GENERAL[name] for name in GENERAL if name in options_of_programs()[program]}
+    )
 
 
 def command_line(program: str, options: dict) -> list[str]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from workflow.lib.load import Quantity, Result
 from workflow.lib.units import parse
-from workflow.pipeline.described import declared
+from workflow.pipeline.described import options_of_programs
 
 ROUNDING = 1e-9  # relative to the largest value of a dataset
 
@@ -17,7 +17,7 @@ def option_units() -> dict[str, str]:
     """Declared units of the options of the programs; all others are dimensionless."""
     return {
         name: option["units"]
-        for options in declared().values()
+        for options in options_of_programs().values()
         for name, option in options.items()
         if option.get("units", "1") != "1"
     }

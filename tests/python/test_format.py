@@ -6,7 +6,7 @@ import h5py
 import pytest
 
 from tests.python.conftest import Program
-from workflow.pipeline.described import declared, described
+from workflow.pipeline.described import described, options_of_programs
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
 PROVENANCE = {"format", "format_version", "program", "words", "source_hash", "compiler", "flags", "libraries", "seed", "streams",
@@ -28,7 +28,7 @@ def content(group: h5py.Group) -> tuple[str, list[tuple[str, str]]]:
 def test_files_have_the_described_content_and_the_same_bytes_for_any_threads(
     program: Program, tmp_path: Path, name: str
 ) -> None:
-    replicated = "replicas" in declared()[name]
+    replicated = "replicas" in options_of_programs()[name]
     for threads in (1, 3):
         done = program(name, output=f"{threads}.h5", **({"threads": threads} if replicated else {}))
         assert done.returncode == 0, done.stderr

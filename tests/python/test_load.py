@@ -156,5 +156,5 @@ def test_a_name_of_another_result_is_refused(path: Path, name: str) -> None:
     right = path.rename(path.with_name(f"all.{identity}.h5"))
     assert load(right).path == right
     attribute(name, "other")(right)
-    with pytest.raises(FormatError, match="its content is that of another result"):
+    with pytest.raises(FormatError, match="it contains another result"):
         load(right)

@@ -9,7 +9,7 @@ import pytest
 
 from tests.python.conftest import ROOT, Program
 from workflow.lib.load import ALL_AGREE, load
-from workflow.pipeline.described import declared
+from workflow.pipeline.described import options_of_programs
 
 
 def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> None:
@@ -20,7 +20,7 @@ def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> Non
     assert result.provenance["seed"] == 7
     assert (ROOT / result.provenance["documentation"].split()[0]).is_file()
     assert result.converged == "no target"
-    assert set(result.parameters) == set(declared()["persistence"])
+    assert set(result.parameters) == set(options_of_programs()["persistence"])
     assert (result.parameters["sigma"], result.parameters["cells"]) == (0.25, 5)
     cost = json.loads((tmp_path / "out.cost.json").read_text())
     assert cost["cpu_seconds"] > 0
@@ -51,7 +51,9 @@ def test_a_quantity_that_is_not_defined_misses_no_target(program: Program, tmp_p
     assert np.isnan(stored["mu"].mean)
 
 
-@pytest.mark.parametrize("name", [name for name, options in declared().items() if "replicas" in options])
+@pytest.mark.parametrize(
+    "name", [name for name, options in options_of_programs().items() if "replicas" in options]
+)
 def test_a_single_replica_has_no_error(program: Program, tmp_path: Path, name: str) -> None:
     assert program(name, replicas=1).returncode == 0
     result = load(tmp_path / "out.h5")

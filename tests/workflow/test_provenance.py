@@ -83,7 +83,7 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         [
             ("edited", MU, "edited or damaged"),
             ("missing", OTHER_MU, ""),
-            ("edited", FEW, "that of another result"),
+            ("edited", FEW, "another result"),
         ],
     ),
     "copies": (

@@ -67,7 +67,7 @@ class Band:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Verdict on a claim by which all its numbers lie in the band. level: significance level, of which each number has an equal part."""
+    """Verdict on a claim that all its numbers lie in the band. level: significance level, shared equally by the numbers."""
 
     band: Band
     numbers: tuple[Estimate, ...]
@@ -89,7 +89,7 @@ class Verdict:
     @property
     def shown(self) -> Estimate:
         """The number farthest outside the band; without one, the number whose interval reaches farthest across an edge or is closest to it.
-        Distances are in the unit of the band, which all numbers of a claim have in common."""
+        Distances are in the unit of the band."""
 
         def reach(number: Estimate) -> tuple[bool, float]:
             low, high = number.interval(self.level / len(self.numbers))

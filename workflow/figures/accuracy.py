@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import listed
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import FormatError, Result
 
 LOOKS = {
@@ -134,7 +134,7 @@ def gain(table: pd.DataFrame, program: str) -> float:
 
 
 @plots("conductivity spreading persistence heat kinetic")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     sampled, kinetic = (part for _, part in table.groupby(table.program == "boltzmann"))
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters, rule
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
@@ -81,7 +81,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 @plots("paper dense dense-drift random random-dense")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     sigmas = sorted(table.sigma.unique())
     figure, row = plt.subplots(1, len(sigmas), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))

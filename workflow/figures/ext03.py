@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import format_number
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.mode_coupling import f_kpz, levy
@@ -205,7 +205,7 @@ def draw_orders(axes: Axes, law: pd.DataFrame) -> None:
 
 
 @plots("light light-long dense dense-long heat")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     all_records = records(results)
     table = tabulate(all_records)
     first = chain(results[0])

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import fit_line, format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -91,7 +91,7 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
 
 
 @plots("deterministic rare size")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     profiles = [result for result in results if result.series != "size"]
     sizes = [result for result in results if result.series != "deterministic"]
     sizes.sort(key=lambda result: result.parameters["cells"])

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.closed import quasi_stationary
@@ -114,7 +114,7 @@ def caption(ageing: Sequence[Result], slopes: pd.DataFrame, spreading: pd.DataFr
 
 
 @plots("energy long few persistence waiting spreading")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     ageing = contents(results)
     figure, panels = plt.subplot_mosaic(
         [["energies", "spreading"], ["slopes", "spreading"]],

@@ -16,7 +16,7 @@ from matplotlib.typing import LineStyleType
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import p_value
 from workflow.lib.load import Result
 from workflow.physics.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
@@ -118,7 +118,7 @@ def caption(tested: pd.DataFrame, results: Sequence[Result], spacing: Mapping[st
 
 
 @plots("thinning thinning-large dilute dilute-large dense dense-large")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     table, spacing = tabulate(results), spacings(results)
     gases = table.groupby("gas", sort=False)
     table = table.join(pd.concat([slopes(part) for _, part in gases]))

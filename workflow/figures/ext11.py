@@ -13,7 +13,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, parameters
-from workflow.lib.figure import Drawn, main, plots, require_elastic
+from workflow.lib.figure import Parts, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.conductivity import LOOKS, by_spacing, drive, gas, spacings, tabulate
@@ -51,7 +51,7 @@ def caption(table: pd.DataFrame, tau: Mean, weak: Sequence[Result], strong: Sequ
 
 
 @plots(OPEN + FORCES + CLOSED)
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     open_chains = [result for result in results if "nu-left" in result.parameters]
     require_elastic(open_chains, "the conductivity of mode coupling")
     strongest = max(map(drive, open_chains))

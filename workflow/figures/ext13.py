@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics.mode_coupling import Chain
@@ -201,7 +201,7 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
 
 
 @plots(GASES + "reversal reversal-rare random heat")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     heat = [result for result in results if result.provenance["program"] == "heat_current"]
     peaks = [result for result in results if result.provenance["program"] == "correlation"]
     elastic = [result for result in heat if result.parameters["rule"] == ELASTIC]

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import baths, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -67,7 +67,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("paper short unit-chain")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)
     figure, rows = plt.subplots(

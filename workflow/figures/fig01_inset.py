@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -82,7 +82,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("paper short unit-chain")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)
     figure, rows = plt.subplots(

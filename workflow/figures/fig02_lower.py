@@ -7,7 +7,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -39,7 +39,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("deterministic rare")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(1.7, 1, height=1.5)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):

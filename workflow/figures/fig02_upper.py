@@ -10,7 +10,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -40,7 +40,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("deterministic rare")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(2, 1, height=1.6, width=1.1)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import baths, format_number, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -70,7 +70,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("paper equal exchange")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.5, width=1.1)
     departure = (100 * (table.flux / table.gaussian - 1)).where(table.flux > OFTEN * table.flux.max())

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Drawn, main, plots, require_elastic
+from workflow.lib.figure import Parts, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, deviations
@@ -104,7 +104,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 @plots("simulation continuum mean-field")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     require_elastic(results, "the kinetic equation")
     table = deviations(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)

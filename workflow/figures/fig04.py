@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -151,7 +151,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
 
 
 @plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]
     unequal = main[main.nu_left != main.nu_right]

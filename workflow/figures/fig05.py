@@ -8,7 +8,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Drawn, main, plots, require_elastic
+from workflow.lib.figure import Parts, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 from workflow.physics.closed import persistence_law
@@ -59,7 +59,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 @plots("paper dense")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     require_elastic(results, "the law arccos(σ)/π")
     table = tabulate(results)
     figure, (above, below) = style.stacked(2.2, 1, height=1.4)

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, format_number, listed, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 
 Mark = tuple[str, str, str]  # marker, colour and dashes
@@ -89,7 +89,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("all")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     results = sorted(results, key=lambda result: result.parameters["sigma"])
     tables = [tabulate(result) for result in results]
     figure, (above, *strips) = style.stacked(2.4, *[1] * len(results), height=0.8 + 0.5 * len(results))

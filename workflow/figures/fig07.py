@@ -11,7 +11,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
@@ -60,7 +60,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 @plots("all zero-momentum size")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     results = sorted(results, key=lambda result: (zero(result), cells(result)))
     tables = [tabulate(result) for result in results]
     random = tables[0]

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, format_number, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 
@@ -53,7 +53,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 @plots("all zero-momentum")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.6)
     for zero in CURVES:

@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, parameters, rule
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -109,7 +109,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 @plots("deterministic large rare rare-small reversal mean-field thinning thinning-large dense dense-large")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     shown = [result for result in results if result.provenance["program"] == "conductivity"]
     table, theory = tabulate(shown), mean_field(results)
     size = (2 * style.COLUMN, 1.2 * style.HEIGHT)

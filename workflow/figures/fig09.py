@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, parameters
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
@@ -84,7 +84,7 @@ def caption(results: Sequence[Result]) -> str:
 
 
 @plots("rest gaussian")
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     results = in_order(results)
     figure, panels = plt.subplot_mosaic(
         [["rest", "gaussian", "position"], ["rest", "gaussian", "speed"]],

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Drawn, main
+from workflow.lib.figure import Parts, main
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -100,7 +100,7 @@ def caption(results: Sequence[Result]) -> str:
         smooth fit above half of it. (b) Exponents over octaves of time. {law}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> Drawn:
+def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(1.7, 1, height=1.7)
     results = in_order(results)
     tables = [tabulate(result) for result in results]

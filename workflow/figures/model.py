@@ -15,7 +15,7 @@ from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 
 from workflow.lib import style
 from workflow.lib.caption import format_number
-from workflow.lib.figure import Drawn, main, plots
+from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 
 # The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones bright.
@@ -107,7 +107,7 @@ def baths(axes: Axes, energies: PowerNorm) -> None:
 
 
 @plots("")
-def draw(_: Sequence[Result]) -> Drawn:
+def draw(_: Sequence[Result]) -> Parts:
     closed, row = flights(ring=True, seed=1), flights(ring=False, seed=1)
     table = pd.concat([closed, row], ignore_index=True)
     energies = PowerNorm(0.45, 0, table.energy.quantile(0.95))

@@ -27,11 +27,11 @@ from workflow.lib.load import REMEDY, FormatError, Result, load
 from workflow.lib.save import Parents, Text, save
 from workflow.lib.units import UnitsError
 
-Drawn = tuple[
+Parts = tuple[
     Figure, pd.DataFrame, str
 ]  # figure, table of the plotted numbers, caption as one paragraph of plain text
 
-Draw = Callable[[Sequence[Result]], Drawn]
+Draw = Callable[[Sequence[Result]], Parts]
 
 SCRIPT = Path(sys.argv[0]).resolve()
 FIGURES = ROOT / "workflow/figures"
@@ -88,7 +88,7 @@ class Plot:
         given = [*results]
         return [result for result in given if result.series in self.series] or given * bool(self.series)
 
-    def __call__(self, results: Iterable[Result]) -> Drawn:
+    def __call__(self, results: Iterable[Result]) -> Parts:
         given = [*results]
         shown = self.shown(given)
         figure, table, caption = self.function(shown)

@@ -29,7 +29,7 @@ def result_identity(program: str, words: str, sources: str) -> str:
 
 
 def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) -> str:
-    """Identity of a panel. results: paths of the results that it plots, of which the names count; sources: sources_of_panel()."""
+    """Identity of a panel. results: paths of the plotted results, without their folders; sources: sources_of_panel()."""
     return identity(panel, ["/".join(Path(path).parts[-2:]) for path in results], sources)
 
 
@@ -45,7 +45,7 @@ def named_identity(path: Path | str) -> str:
 
 
 def statement(panel: str, quality: str, name: str) -> str:
-    """The line by which each file of a panel states what it is."""
+    """Identification line in each file of a panel."""
     return f"panel {panel}, quality {quality}, identity {name}"
 
 

@@ -28,7 +28,7 @@ NOT_IN_DIGEST = {
     "NAME",
     "DIMENSION_LIST",
     "REFERENCE_LIST",
-}  # attributes: its own, and those of axes
+}  # attributes: the digest itself, and attributes of axes
 REMEDY = "; remove it and make it again"
 NOT_REACHED = "not reached"
 UNDEFINED = "target quantity not defined"
@@ -129,7 +129,7 @@ class Result:
 
     @property
     def run(self) -> str:
-        """Name of the run: that of the file without its identity."""
+        """Name of the run: the file name without identity."""
         return re.sub(rf"\.{IDENTITY}$", "", self.path.stem)
 
     @property
@@ -191,7 +191,7 @@ class Result:
 
 
 def load(path: Path | str) -> Result:
-    """Reads a result file. Raises FormatError, also if its values were edited or its name is that of another result, and OSError if the
+    """Reads a result file. Raises FormatError, also after an edit or a change of name, and OSError if the
     file is unreadable."""
     with _verified(path) as (file, provenance, datasets):
         quantities: dict[str, dict[str, h5py.Dataset]] = {}
@@ -251,11 +251,11 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dic
             own = result_identity(*(provenance[name] for name in ("program", "words", "source_hash")))
             if (named_identity(path) or own) != own:
                 raise FormatError(
-                    f"its content is that of another result: of other options or sources, copied or exchanged{REMEDY}"
+                    f"it contains another result: other options or sources, copied or exchanged{REMEDY}"
                 )
             nodes = nodes_of(file)
             if provenance["digest"] != digest(nodes):
-                raise FormatError(f"edited or damaged: its content differs from what was written{REMEDY}")
+                raise FormatError(f"edited or damaged: its content differs from its digest{REMEDY}")
             datasets = {path: node for path, node in nodes.items() if isinstance(node, h5py.Dataset)}
             yield file, provenance, datasets
     except FileNotFoundError as error:

@@ -89,7 +89,7 @@ _SETTINGS: dict[RcKeyType, Any] = {
 
 
 def apply() -> None:
-    """Applies the style, independent of matplotlibrc, and restricts the fonts to those of matplotlib, independent of the system."""
+    """Applies the style, independent of matplotlibrc, and of the fonts of the system: only those of matplotlib are used."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
     fonts = font_manager.fontManager

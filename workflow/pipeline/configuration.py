@@ -14,7 +14,7 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
-from workflow.pipeline.described import declared
+from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import POLYNOMIAL
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
@@ -106,7 +106,7 @@ def panel_names(folder: Path = CONFIGURATION) -> list[str]:
 
 def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
     """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError, BuildError before the programs are compiled."""
-    programs: dict[str, Schema] = declared()
+    programs: dict[str, Schema] = options_of_programs()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
     paper.check(_physics(paper.content, programs))

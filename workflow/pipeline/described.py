@@ -23,7 +23,7 @@ def described() -> dict[str, dict[str, Any]]:
 
 
 @cache
-def declared() -> dict[str, dict[str, dict[str, Any]]]:
+def options_of_programs() -> dict[str, dict[str, dict[str, Any]]]:
     """JSON Schema of every option that determines a result, by program and name. Raises BuildError before the first build."""
     if not described():
         described.cache_clear()  # the programs may be compiled in this session

@@ -9,7 +9,7 @@ from pathlib import Path
 @cache
 def lock_products() -> None:
     """Keeps other commands from making or removing products until this process ends. Called again, it does nothing: the entry locks before it
-    compiles, and the Snakefile for those who call Snakemake. Raises OSError."""
+    compiles; the Snakefile also locks, for direct calls of Snakemake. Raises OSError."""
     Path("build").mkdir(exist_ok=True)
     file = os.open("build/lock", os.O_RDWR | os.O_CREAT)
     try:

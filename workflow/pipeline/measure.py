@@ -12,7 +12,7 @@ from workflow.lib.identity import ROOT
 from workflow.lib.load import REMEDY, FormatError, Result, load
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import Options
-from workflow.pipeline.described import declared
+from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.plan import Run, seed_of
 from workflow.pipeline.program import ProgramError, execute, require_built
 from workflow.pipeline.sources import code_hashes
@@ -39,7 +39,7 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
 
     Raises MeasureError; BuildError if the program is missing or older than its sources."""
-    known = declared()
+    known = options_of_programs()
     if program not in known:
         raise MeasureError(f"{program} is not a program; {suggestion(program, known)}")
     given = _checked(program, options, known[program])
@@ -80,7 +80,7 @@ def _checked(program: str, options: Mapping[str, object], known: Mapping[str, An
 
 
 def _plain(options: Mapping[str, Any]) -> Options:
-    """Converts numbers of NumPy to those of Python, and whole numbers to integers."""
+    """Converts numbers of NumPy to Python's, and whole numbers to integers."""
     plain = {name: getattr(value, "item", lambda value=value: value)() for name, value in options.items()}
     whole = {
         name: int(number)

@@ -29,7 +29,7 @@ from workflow.pipeline.configuration import (
     load_configuration,
     programs_of,
 )
-from workflow.pipeline.described import declared
+from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import NUMBER, evaluated
 from workflow.pipeline.sources import source_hash
 
@@ -187,7 +187,7 @@ def panel_named(plan: dict[str, Panel], name: str) -> Panel:
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
-    """Panels whose runs a panel plots: those in `uses`, then itself."""
+    """Panels with plotted runs: `uses`, then the panel itself."""
     return [plan[used] for used in (*plan[name].uses, name)]
 
 
@@ -257,7 +257,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             continue
         own = dict(panel["series"][series])
         own.pop("program", None)
-        replicated, scale = "replicas" in declared()[program], own.pop("target-scale", None)
+        replicated, scale = "replicas" in options_of_programs()[program], own.pop("target-scale", None)
         equal_runs = range(1, own.pop("runs", 1) + 1)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))

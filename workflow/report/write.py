@@ -34,7 +34,7 @@ WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels
 
 
 def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> bytes:
-    """The page. release: whether it is that of the gallery, with pictures in files beside it. Raises OSError."""
+    """The page. release: the gallery's page, with pictures in files beside it. Raises OSError."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,

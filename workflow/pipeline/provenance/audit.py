@@ -1,7 +1,6 @@
 """Checks results and figures against the present options, sources and packages (`make audit`; `make status` renders nothing).
 
-Results and figures have to be unmodified and to have the names of what determines them now; a figure that is rendered again has to
-have equal bytes. A panel without figure files is not made: some of its results may exist, as other panels plot them.
+Results and figures must be unmodified and current, and a figure that is rendered again must have equal bytes. A panel without figure files is not made: some of its results may exist, as other panels plot them.
 
 Exit status: 0, 1 if something is stale, edited or missing, 3 if something could not be checked or nothing is made.
 """
@@ -67,7 +66,7 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
 
 
 def changes(run: Run, sibling: Path) -> list[str]:
-    """Options and sources of a run that differ from those of a former result."""
+    """Options and sources that differ between a run and a former result."""
     try:
         former = load_provenance(sibling)
     except (FormatError, OSError) as error:
@@ -179,5 +178,5 @@ def main(options: argparse.Namespace) -> int:
         print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed}")
     broken = states.keys() - {"not checked"}
     if broken & {"stale", "missing"}:
-        print(f"make figures {options.effort} makes what is stale or missing")
+        print(f"make figures {options.effort} makes stale and missing files")
     return 1 if broken else 3 if states or not made else 0

@@ -1,4 +1,4 @@
-"""Compares results with those of other replicas, after make figures with SEED or REPLICAS.
+"""Compares results of SEED or REPLICAS with the results of the quality.
 
 Exit status: 0 if all agree, 1 if not.
 """
@@ -88,7 +88,7 @@ def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, 
 
 
 def main(options: argparse.Namespace) -> int:
-    """Compares the results of a command with SEED or REPLICAS with those of the quality."""
+    """Compares the results of a command with SEED or REPLICAS."""
     selection, found = Selection.of(options.quality), []
     plan = load_plan(selection.quality)
     for path, run in runs_of(options.plan, options.panels or options.plan, selection.name).items():

@@ -20,7 +20,7 @@ BUILD = Path("build/verify")
 
 
 def main(options: argparse.Namespace) -> int:
-    """Reruns a sample of the results, or those of a panel, by freshly compiled programs."""
+    """Reruns a sample of the results, or a panel's, with freshly compiled programs."""
     runs = runs_of(options.plan, options.panels or options.plan, options.quality)
     made = [path for path in runs if Path(path).is_file()]
     if not options.panels:
