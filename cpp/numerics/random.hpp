@@ -30,7 +30,8 @@ enum class Purpose : std::uint64_t {
 class RandomStream {
  public:
   static constexpr const char* description =
-      "Philox4x64-10; key (seed, purpose); counter (block, entity, replica, 0)";
+      "Philox4x64-10; key (seed, purpose); counter (block, entity, replica, 0), of events (event, entity, "
+      "replica, block)";
 
   RandomStream(const StreamKey& key, Purpose purpose, std::uint64_t entity)
       : key_{{key.seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, key.replica, 0}} {}

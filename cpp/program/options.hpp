@@ -122,7 +122,7 @@ class Options {
   void omit(const std::string& name);
 
   /// Words of the command line for options that determine the result, as they were given, separated by
-  /// spaces: a part of the result's identity (workflow/pipeline/sources.py).
+  /// spaces: a part of the result's identity (workflow/lib/identity.py).
   const std::string& words() const { return words_; }
 
   /// Values of all options that determine the result, sorted by name.

@@ -90,6 +90,10 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")], "status", 1,
         [("edited", "figures/smoke/mu.csv", "differs from its hash"), ("missing", "figures/smoke/energy.svg", "")],
     ),
+    "report": (
+        [write("figures/smoke/report.html")], "status", 1,
+        [("stale", "figures/smoke/report.html", "other results")],
+    ),
     "back to former sources": (
         [
             substitute("workflow/figures/mu.py", "A test", "Another"),

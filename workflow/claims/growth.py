@@ -49,7 +49,7 @@ def sizes(data: Data, gamma: str | int) -> list[Result]:
 
 
 def _stationary(runs: Iterable[Result]) -> list[Result]:
-    return by_size(run for run in runs if run["stationary"].mean == 1)
+    return by_size(run for run in runs if run.usable)
 
 
 def exponent(runs: Sequence[Result], name: str) -> Estimate:
@@ -148,7 +148,7 @@ def without_particle_current(data: Data, last: int | None = None) -> Estimate:
     """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over all sizes or over the `last` largest. The
     exponents over the smaller and over the larger half bound the systematic error."""
     planned = data.of("ext11", *FIXED_SPACING)
-    moving = {run.parameters["cells"] for run in planned if run["stationary"].mean != 1}
+    moving = {run.parameters["cells"] for run in planned if not run.usable}
     runs = [run for run in planned if run.parameters["cells"] not in moving]
     table = tabulate(runs) if runs else None
     if table is None or len(table) < 2:

@@ -1,1 +1,1 @@
-"""What a script of a panel imports: loading, units, tables, fits, style, captions, saving."""
+"""Library of the scripts: loading, units, tables, fits, style, captions, saving."""

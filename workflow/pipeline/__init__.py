@@ -1,1 +1,1 @@
-"""What is planned, made and checked."""
+"""Planning, making and checking of products."""

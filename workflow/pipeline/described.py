@@ -9,7 +9,7 @@ from workflow.pipeline.sources import programs
 
 
 class BuildError(ValueError):
-    """A program is missing or older than its sources."""
+    """A program is missing, or is not built from the present sources."""
 
 
 DESCRIPTIONS = Path(__file__).parents[2] / "build/describe"

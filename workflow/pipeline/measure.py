@@ -38,7 +38,7 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     calls shares their random numbers. A result of these options and sources in data/measured is not measured again, unless it was edited. An interrupted
     call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
 
-    Raises MeasureError; BuildError if the program is missing or older than its sources."""
+    Raises MeasureError; BuildError if the program is not built from the present sources."""
     known = options_of_programs()
     if program not in known:
         raise MeasureError(f"{program} is not a program; {suggestion(program, known)}")

@@ -31,10 +31,11 @@ from workflow.pipeline.configuration import (
 )
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import NUMBER, evaluated
+from workflow.pipeline.publish import RENDERED
 from workflow.pipeline.sources import source_hash
 
 RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
-RENDERING = "build/figures/{quality}/{panel}.{identity}"  # stem of the files of a panel
+RENDERING = f"{RENDERED}/{{quality}}/{{panel}}.{{identity}}"  # stem of the files of a panel
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
 QUALITIES = ("smoke", "standard", "paper", "deep")
 REPORT_SOURCES = (

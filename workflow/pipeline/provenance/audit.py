@@ -18,7 +18,7 @@ from workflow.lib.files import in_one_line
 from workflow.lib.identity import DIGITS, named_identity, sha256, sources_of_panel, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import Panel, Run, data_of, rendering_command, runs_of, stem_of
+from workflow.pipeline.plan import Panel, Run, data_of, rendering_command, report_stem, runs_of, stem_of
 from workflow.pipeline.publish import FIGURES, RENDERED, copies, read_record
 from workflow.pipeline.sources import source_hash
 
@@ -159,6 +159,20 @@ def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) 
     return [*results.values(), *filter(None, figures)]
 
 
+def fault_of_report(plan: dict[str, Panel], quality: str) -> Fault | None:
+    """Fault of the published report, if there is one."""
+    page, current = Path(FIGURES, quality, "report.html"), Path(f"{report_stem(plan, quality)}.html")
+    if not page.exists():
+        return None
+    if not current.exists():
+        return Fault("stale", str(page), "other results, figures or sources")
+    return (
+        None
+        if page.read_bytes() == current.read_bytes()
+        else Fault("edited", str(page), f"differs from {current}")
+    )
+
+
 def main(options: argparse.Namespace) -> int:
     quality, plan = options.quality, options.plan
     names = options.panels or [*plan]
@@ -166,6 +180,8 @@ def main(options: argparse.Namespace) -> int:
         lock_products()  # build/audit is one folder
     made = [name for name in names if FigureFiles(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)
+    if not options.panels and (fault := fault_of_report(plan, quality)):
+        faults.append(fault)
     for fault in faults:
         alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)
     for (state, reason, _), (first, *more) in alike.items():
