@@ -14,7 +14,6 @@ LONG = {
     "persistence": {"observation-time": 2000, "replicas": 60},
     "displacement": {"cells": 5, "particles-per-cell": 2, "relaxation-time": 0, "observation-time": 1, "decades": 11,
                      "replicas": 2000},
-    "energy_pulse": {"relaxation-time": 4, "pairs-per-replica": 1, "replicas": 100},
 }  # fmt: skip
 
 

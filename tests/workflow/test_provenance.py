@@ -27,10 +27,6 @@ def edit_value(project: Project) -> None:
         file["results/mu/mean"][...] *= 1.001
 
 
-def exchange(project: Project) -> None:
-    shutil.copy(project.one(AGEING), project.one(FEW))
-
-
 def remove(pattern: str) -> Edit:
     return lambda project: [path.unlink() for path in project.folder.glob(pattern)]
 
@@ -79,11 +75,10 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         "audit", 0, [],
     ),
     "results": (
-        [edit_value, remove(OTHER_MU), exchange], "status", 1,
+        [edit_value, remove(OTHER_MU)], "status", 1,
         [
             ("edited", MU, "edited or damaged"),
             ("missing", OTHER_MU, ""),
-            ("edited", FEW, "another result"),
         ],
     ),
     "copies": (
