@@ -49,46 +49,39 @@ def refusal(folder: Path) -> list[str]:
     return str(raised.value).split("\n")
 
 
+# A mistake, and what its message names: position, key, or the value that was meant.
 MISTAKES = [
-    ("cells: 11", "cells: 0", "6:7: panels.mu.common.cells: 0 is invalid; allowed: a whole number from 1"),
-    ("cells: 11", "cels: 11", "cels: persistence has no such option; did you mean cells?"),
-    ("cells: 11", "replicas: 9", "replicas: belongs into quality/*.yaml"),
-    ("cells: 11", "seed: 9", "seed: follows from the names of panel and run; `make panel SEED=7`"),
-    ("      cells: 11", "\tcells: 11", ":1: found character '\\t'"),
-    ("cells: 11", "cells: 11\n      cells: 11", '7:7: found duplicate key "cells"'),
-    ("[0, 0.5]", "[0, -3]", "all.sigma.1: -3 is invalid; allowed: a number from -1 to 1"),
-    ("1/N", "1/M", '"1/M" is invalid; allowed: a number from 1e-30 to 1e+30, or 1/N'),
-    ("warm", "tepid", '"tepid" is unknown; choose one of empty, warm, cold, hot'),
-    ('"200,600"', '"200;600"', "allowed: numbers from 1e-30 to 1e+30, ascending, separated by commas"),
-    ("0.05N", "-0.05N", '"-0.05N" is invalid; allowed: a number from 0'),
-    ("persistence", "persistance", '"persistance" is unknown; did you mean persistence?'),
-    ("    program: persistence\n", "", "mu.series.all: 'program' is a required property"),
-    ("script:", "skript:", "panels.heat.skript: unknown key; did you mean script?"),
-    ("[peak]", "[peek]", "panels.heat.uses.0: peek has no runs; did you mean peak?"),
-    ("panels:", "panel:", "1:1: panel: unknown key; did you mean panels?"),
-    ("{replicas: 4}", "{error: 2}", "default.error: 2 is invalid; allowed: a number greater than 0 and less"),
-    ("dense: {replicas", "dense: {sigma", "dense.sigma: belongs into paper.yaml"),
-    (
-        "dense: {replicas",
-        "denser: {replicas",
-        "mu.denser: is not in paper.yaml as a series of mu: remove it here; did you mean dense?",
-    ),
-    (
-        "dense: {replicas: 2}",
-        "omit: [densest]",
-        '"densest" is not in paper.yaml as a series of mu: remove it here; did you mean dense?',
-    ),
-    ("  mu: {", "  moo: {", "panels.moo: is not in paper.yaml as a panel: remove it here; "),
+    ("cells: 11", "cells: 0", "6:7: panels.mu.common.cells: "),
+    ("cells: 11", "cels: 11", "did you mean cells?"),
+    ("cells: 11", "replicas: 9", "quality/*.yaml"),
+    ("cells: 11", "seed: 9", "SEED="),
+    ("      cells: 11", "\tcells: 11", ":6:1: "),
+    ("cells: 11", "cells: 11\n      cells: 11", ":7:7: "),
+    ("[0, 0.5]", "[0, -3]", "all.sigma.1: "),
+    ("1/N", "1/M", "cell-length: "),
+    ("warm", "tepid", "empty, warm, cold, hot"),
+    ('"200,600"', '"200;600"', "times: "),
+    ("0.05N", "-0.05N", "relaxation-time: "),
+    ("persistence", "persistance", "did you mean persistence?"),
+    ("    program: persistence\n", "", "mu.series.all: "),
+    ("script:", "skript:", "did you mean script?"),
+    ("[peak]", "[peek]", "did you mean peak?"),
+    ("panels:", "panel:", "did you mean panels?"),
+    ("{replicas: 4}", "{error: 2}", "default.error: "),
+    ("dense: {replicas", "dense: {sigma", "dense.sigma: "),
+    ("dense: {replicas", "denser: {replicas", "remove it here; did you mean dense?"),
+    ("dense: {replicas: 2}", "omit: [densest]", "remove it here; did you mean dense?"),
+    ("  mu: {", "  moo: {", "remove it here"),
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "words"), MISTAKES)
-def test_a_mistake_is_reported_in_one_line(folder: Path, old: str, new: str, words: str) -> None:
+@pytest.mark.parametrize(("old", "new", "named"), MISTAKES)
+def test_a_mistake_is_reported_in_one_line(folder: Path, old: str, new: str, named: str) -> None:
     name, text = ("paper.yaml", PAPER) if old in PAPER else ("quality/smoke.yaml", SMOKE)
     (folder / name).write_text(text.replace(old, new, 1))
     lines = refusal(folder)
     assert all(re.match(rf"{folder / name}:[0-9]+:[0-9]+: ", line) for line in lines)
-    assert any(words in line for line in lines)
+    assert any(named in line for line in lines), lines
 
 
 @pytest.mark.parametrize("content", [None, b"", b"- 1", b"a: \xff"])
