@@ -159,8 +159,7 @@ int main(int argc, char** argv) {
   Parameters parameters;
   declare(program.options(), parameters,
           "Times over which the currents are integrated, multiples of the first");
-  program.options().real_or_word("--gamma", parameters.ring.scattering.gamma, positive, "N", "1",
-                                 "Mean number of scatterings in N cells; N: every scatterer scatters");
+  declare_gamma(program.options(), parameters.ring.scattering, positive);
   program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });
 }

@@ -178,9 +178,9 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
     if (name == word && !option->is_flag()) words_ += ' ' + std::string(argv[++i]);
   }
   constexpr std::size_t most = 60'000;  // an attribute of an HDF5 file has at most 64 kB
-  std::size_t length = 0;
-  for (const Parameter& each : parameters()) length += each.name.size() + as_text(each.value).size();
-  if (length = std::max(length, words_.size()); length > most)
+  std::size_t of_parameters = 0;
+  for (const Parameter& each : parameters()) of_parameters += each.name.size() + as_text(each.value).size();
+  if (const std::size_t length = std::max(of_parameters, words_.size()); length > most)
     throw UsageError(fmt::format(
         "the options take {} characters, more than the {} that a result can state. Give shorter lists.",
         length, most));

@@ -9,6 +9,17 @@
 
 namespace lorentz {
 
+/// Energy and particles that cross the openings, positive to the right. A crossing has the weight 1/2,
+/// because a current is the mean over both openings [eq. 26].
+struct OpeningCurrents {
+  double energy = 0, particles = 0;
+
+  void cross(double u) {
+    energy += 0.25 * u * std::abs(u);
+    particles += std::copysign(0.5, u);
+  }
+};
+
 /// Control variates of every stationary measurement: numbers, momenta and energies that the reservoirs inject
 /// in a window, minus their exact means [eq. 31].
 class InjectionControls {

@@ -41,6 +41,7 @@ class Drift {
  public:
   Drift(const OpenChain& chain, const Window& window)
       : chain_(chain),
+        window_(window),
         halves_(window.begin, window.end, 2),
         scatterers_{0, chain.cells / 2, chain.cells - 1},
         squares_(scatterers_.size(), TimeIntegral(halves_)) {}
@@ -52,13 +53,12 @@ class Drift {
   }
 
   void on_injection(End end, double time, double u) {
-    if (!halves_.contain(time)) return;
     injections_[halves_[time]].add(end, u);
-    cross_opening(time, u, 1);
+    cross(time, u, 1);
   }
 
   void on_exit(End, double time, double u) {
-    if (halves_.contain(time)) cross_opening(time, u, -1);
+    if (window_.contains(time)) cross(time, u, -1);
   }
 
   void finish(const std::vector<double>& scatterers, double end_time) {
@@ -70,8 +70,8 @@ class Drift {
 
   void record(const DriftTallies& tallies, TallySums& sums) const {
     const double half = halves_.length();
-    sums[tallies.energy_current][0] = (energy_[1] - energy_[0]) / half;
-    sums[tallies.particle_current][0] = (particles_[1] - particles_[0]) / half;
+    sums[tallies.energy_current][0] = (openings_[1].energy - openings_[0].energy) / half;
+    sums[tallies.particle_current][0] = (openings_[1].particles - openings_[0].particles) / half;
     sums[tallies.energy][0] = gain_ / (2 * half);
     for (std::size_t i = 0; i < scatterers_.size(); ++i)
       sums[tallies.temperature][i] = (squares_[i].sums()[1] - squares_[i].sums()[0]) / half;
@@ -81,24 +81,23 @@ class Drift {
   }
 
  private:
-  /// sign: 1 for a particle that enters. Currents are means over both openings, hence the factor 1/2.
-  void cross_opening(double time, double u, double sign) {
-    const std::size_t half = halves_[time];
-    energy_[half] += 0.25 * u * std::abs(u);
-    particles_[half] += std::copysign(0.5, u);
+  /// sign: 1 for a particle that enters.
+  void cross(double time, double u, double sign) {
+    openings_[halves_[time]].cross(u);
     gain_ += sign * 0.5 * u * u;
   }
 
   OpenChain chain_;
+  Window window_;
   Blocks halves_;
   std::array<std::uint32_t, 3> scatterers_;
   std::vector<TimeIntegral> squares_;  // of U
-  std::array<double, 2> energy_{}, particles_{};
+  std::array<OpeningCurrents, 2> openings_{};
   std::array<InjectionControls, 2> injections_;
   double gain_ = 0;
 };
 
-/// Quantities `drift_p_value` and `stationary`, 1 if the p-value is at least 1e-4, so that the test rejects
+/// Quantities `drift_p_value` and `stationary`, 1 if the p-value exceeds 1e-4, so that the test rejects
 /// one stationary run in ten thousand [eq. 51].
 Group stationarity(const DriftTallies& tallies);
 

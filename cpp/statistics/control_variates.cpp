@@ -12,10 +12,20 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+namespace {
+
+/// The least number of records for a regression on standardised columns; 0 if none varies.
+std::size_t records_needed(const MatrixXd& controls) {
+  const auto varying = static_cast<std::size_t>((controls.colwise().squaredNorm().array() > 0).count());
+  return varying > 0 ? std::max(3 * varying, varying + 8) : 0;
+}
+
+}  // namespace
+
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {
-  const std::size_t needed = records_needed(records, regression.controls);
-  if (needed == 0 || records.size() < needed) return {};
   const MatrixXd x = standardised(records, regression.controls), x_centred = centred(x);
+  const std::size_t needed = records_needed(x);
+  if (needed == 0 || records.size() < needed) return {};
   const Index rows = x.rows();
 
   // Column i of the gain: g_i [eq. 34].
@@ -37,13 +47,6 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
     for (Index i = 0; i < rows; ++i) reduced[static_cast<std::size_t>(i)][k] = corrected(i);
   }
   return reduced;
-}
-
-std::size_t records_needed(const Records& records, const Columns& controls) {
-  if (records.size() == 0 || controls.empty()) return 0;
-  const auto varying =
-      static_cast<std::size_t>((standardised(records, controls).colwise().squaredNorm().array() > 0).count());
-  return varying > 0 ? std::max(3 * varying, varying + 8) : 0;
 }
 
 double variance_ratio(const Records& a, const Records& b, const Columns& columns) {
@@ -69,7 +72,7 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
   Columns measured;
   std::size_t needed = 0;
   for (const Regression& regression : regressions) {
-    needed = std::max(needed, records_needed(records, regression.controls));
+    needed = std::max(needed, records_needed(standardised(records, regression.controls)));
     const std::optional<Records> corrected = regress_out(records, regression);
     if (!corrected) continue;
     for (std::size_t k = 0; k < corrected->width(); ++k) {

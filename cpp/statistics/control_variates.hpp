@@ -20,11 +20,9 @@ struct Regression {
 /// correction has mean 0 and adds no bias (Glasserman, Monte Carlo Methods in Financial Engineering, section
 /// 4.1). The standard error of the mean follows from the scatter of the corrected records, which are
 /// correlated only through the sampling errors of the coefficients. Controls that do not vary are left out.
-/// The result is empty without controls, with too few records, or with a leverage above 0.99.
+/// The result is empty without controls, with fewer than max(3k, k + 8) records for k varying controls, or
+/// with a leverage above 0.99.
 std::optional<Records> regress_out(const Records& records, const Regression& regression);
-
-/// The least number of records for a regression, max(3k, k + 8) for k varying controls; 0 for none.
-std::size_t records_needed(const Records& records, const Columns& controls);
 
 /// Variance over the records of a divided by that of b, averaged over columns. Columns that do not vary in b
 /// are left out; 1 if none varies.

@@ -15,7 +15,6 @@ class Blocks {
 
   double length() const { return (end_ - begin_) / static_cast<double>(count_); }
   std::size_t count() const { return count_; }
-  bool contain(double time) const { return time >= begin_ && time < end_; }
 
   double edge(std::size_t block) const {
     return block == count_ ? end_ : begin_ + static_cast<double>(block) * length();

@@ -86,8 +86,11 @@ def with_rules(caption: str, results: Sequence[Result]) -> str:
 def with_doubts(caption: str, results: Sequence[Result]) -> str:
     """The caption, with a sentence on results whose window was not stationary. Panels with a point for each also cross them out."""
     drifting = [result.run for result in results if NOT_STATIONARY in result.doubts]
-    names = listed(drifting) if 0 < len(drifting) <= FEW else f"{len(drifting)} runs"
-    return f"{caption} Not stationary: {names}." if drifting else caption
+    if not drifting:
+        return caption
+    return (
+        f"{caption} Not stationary: {listed(drifting) if len(drifting) <= FEW else f'{len(drifting)} runs'}."
+    )
 
 
 def baths(result: Result) -> str:

@@ -1,7 +1,7 @@
 """Entry point of the figure scripts: loads the results, renders and saves a panel.
 
 A script defines draw(results) and ends with `main(draw, title)`. A title that differs between panels is a function of the results. `@plots`
-before draw names the series that it plots. All else that a script uses is in workflow/lib and workflow/physics, or `reads` of its panel names it.
+before draw names the plotted series. Anything else is in workflow/lib and workflow/physics, or named by `reads` of the panel.
 Units of columns that are not named after a quantity, an axis or an option are keyword arguments, which also hold for the columns of
 their errors: `main(draw, title, deviation="1")`.
 """
@@ -23,7 +23,7 @@ from workflow.lib import style
 from workflow.lib.caption import listed, with_doubts, with_rules
 from workflow.lib.columns import as_csv, inherited
 from workflow.lib.identity import ROOT, SHARED, named_identity, panel_identity, sources_of_panel
-from workflow.lib.load import REMEDY, FormatError, Result, load
+from workflow.lib.load import FormatError, Result, load, set_aside
 from workflow.lib.save import Parents, Text, save
 from workflow.lib.units import UnitsError
 
@@ -92,13 +92,13 @@ class Plot:
         given = [*results]
         shown = self.shown(given)
         figure, table, caption = self.function(shown)
+        if len(shown) == len(given):
+            return figure, table, caption
         own = [result.series for result in given if result.path.parent == given[-1].path.parent]
-        others = [name for name in dict.fromkeys(own) if name not in self.series and len(shown) < len(given)]
-        if others:
+        if others := [name for name in dict.fromkeys(own) if name not in self.series]:
             caption = f"{caption} Not shown: {listed(others)}."
             script = Path(inspect.getfile(self.function)).name
-            remedy = f"to plot it, add its name to @plots in {script}"
-            print(f"Not shown: {listed(others)}; {remedy}", file=sys.stderr)
+            print(f"Not shown: {listed(others)}; to plot it, extend {script}", file=sys.stderr)
         return figure, table, caption
 
 
@@ -137,7 +137,7 @@ def main(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: st
         sys.exit(f"{', '.join(sources)}: one of these was edited meanwhile: repeat the command")
     costs = [path.with_suffix(".cost.json") for path in options.data]
     try:
-        results = read(options.data, set_aside=bool(named_identity(options.output)))
+        results = read(options.data, rename=bool(named_identity(options.output)))
         style.apply()
         figure, table, caption = draw(results)
         require_declared(panel, [SCRIPT, *options.data, *costs, *map(Path, options.reads)])
@@ -152,20 +152,17 @@ def main(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: st
     save(figure, saved, options.output, text, Parents(name, options.data, sources))
 
 
-def read(paths: Sequence[Path], set_aside: bool) -> list[Result]:
-    """Loads results. Raises FormatError for all that are refused. set_aside: also renames these, so that the same command makes them
-    again."""
+def read(paths: Sequence[Path], rename: bool) -> list[Result]:
+    """Loads results. Raises FormatError for all that are refused. rename: also sets these aside."""
     results, refused = [], []
     for path in paths:
         try:
             results.append(load(path))
         except FormatError as error:
-            refused.append(str(error))
-            if set_aside and path.exists():
-                path.rename(f"{path}.refused")
-                refused[-1] = (
-                    f"{refused[-1].removesuffix(REMEDY)}; renamed to {path.name}.refused: the same command makes it again"
-                )
+            again = rename and path.exists()
+            refused.append(
+                f"{set_aside(path, error)}: the same command makes it again" if again else str(error)
+            )
     if refused:
         raise FormatError("\n".join(refused))
     return results

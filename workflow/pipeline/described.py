@@ -2,9 +2,9 @@
 
 import json
 from functools import cache
-from pathlib import Path
 from typing import Any
 
+from workflow.lib.identity import ROOT
 from workflow.pipeline.sources import programs
 
 
@@ -12,24 +12,24 @@ class BuildError(ValueError):
     """A program is missing, or is not built from the present sources."""
 
 
-DESCRIPTIONS = Path(__file__).parents[2] / "build/describe"
+DESCRIPTIONS = ROOT / "build/describe"
 
 
 @cache
 def described() -> dict[str, dict[str, Any]]:
-    """What each present program prints with --describe; docs/format.md has the keys. Empty before the first build."""
+    """What each present program prints with --describe; docs/format.md has the keys. Raises BuildError before the first build."""
     paths = {name: DESCRIPTIONS / f"{name}.json" for name in programs()}
-    return {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
+    built = {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
+    if not built:
+        raise BuildError(
+            "The options of the programs are unknown before they are compiled: run make build first"
+        )
+    return built
 
 
 @cache
 def options_of_programs() -> dict[str, dict[str, dict[str, Any]]]:
     """JSON Schema of every option that determines a result, by program and name. Raises BuildError before the first build."""
-    if not described():
-        described.cache_clear()  # the programs may be compiled in this session
-        raise BuildError(
-            "The options of the programs are unknown before they are compiled: run make build first"
-        )
     return {
         name: {
             option: schema

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from workflow.lib.identity import ROOT
-from workflow.lib.load import REMEDY, FormatError, Result, load
+from workflow.lib.load import FormatError, Result, load, set_aside
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import Options
 from workflow.pipeline.described import options_of_programs
@@ -35,8 +35,8 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     reasons to doubt each result.
 
     The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
-    calls shares their random numbers. A result of these options and sources in data/measured is not measured again, unless it was edited. An interrupted
-    call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
+    calls shares their random numbers. A result of these options and sources in data/measured is not measured again, unless it was
+    edited. An interrupted call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
 
     Raises MeasureError; BuildError if the program is not built from the present sources."""
     known = options_of_programs()
@@ -100,10 +100,9 @@ def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
         try:
             return load(path)
         except FormatError as error:
-            refused = path.rename(f"{path}.refused")
-            warnings.warn(f"{str(error).removesuffix(REMEDY)}; renamed to {refused.name}", stacklevel=4)
+            warnings.warn(set_aside(path, error), stacklevel=4)
     path.parent.mkdir(parents=True, exist_ok=True)
-    resume = ["--resume", "--progress", "log"] if "replicas" in known else []
+    resume = ["--resume", "--progress", "log"] if run.replicated else []
     try:
         execute(program, options | threads, path, *resume, relay=True)
     except ProgramError as error:

@@ -63,11 +63,11 @@ class EndsAndOpenings {
 
   void on_injection(End end, double, double u) {
     injections_.add(end, u);
-    cross_opening(u);
+    openings_.cross(u);
   }
 
   void on_exit(End, double time, double u) {
-    if (window_.contains(time)) cross_opening(u);
+    if (window_.contains(time)) openings_.cross(u);
   }
 
   void finish(const std::vector<double>& scatterers, double end_time) {
@@ -76,8 +76,8 @@ class EndsAndOpenings {
 
   void record(const EndTallies& tallies, TallySums& sums) const {
     const double duration = window_.end - window_.begin;
-    sums[tallies.energy_current][0] = energy_ / duration;
-    sums[tallies.particle_current][0] = particles_ / duration;
+    sums[tallies.energy_current][0] = openings_.energy / duration;
+    sums[tallies.particle_current][0] = openings_.particles / duration;
     sums.set(tallies.injection, injections_.deviations(chain_, duration));
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const EndCell& end = ends_[i];
@@ -109,16 +109,10 @@ class EndsAndOpenings {
     }
   };
 
-  /// Adds a crossing with the weight 1/2, because the current is the mean over both openings.
-  void cross_opening(double u) {
-    energy_ += 0.25 * u * std::abs(u);
-    particles_ += std::copysign(0.5, u);
-  }
-
   OpenChain chain_;
   Window window_;
   std::array<EndCell, 2> ends_;
-  double energy_ = 0, particles_ = 0;
+  OpeningCurrents openings_;
   InjectionControls injections_;
 };
 

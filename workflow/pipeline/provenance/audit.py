@@ -1,6 +1,7 @@
 """Checks results and figures against the present options, sources and packages (`make audit`; `make status` renders nothing).
 
-Results and figures must be unmodified and current, and a figure that is rendered again must have equal bytes. A panel without figure files is not made: some of its results may exist, as other panels plot them.
+Results and figures must be unmodified and current, and a figure that is rendered again must have equal bytes. A panel without figure
+files is not made: some of its results may exist, as other panels plot them.
 
 Exit status: 0, 1 if something is stale, edited or missing, 3 if something could not be checked or nothing is made.
 """
@@ -165,12 +166,12 @@ def fault_of_report(plan: dict[str, Panel], quality: str) -> Fault | None:
     if not page.exists():
         return None
     if not current.exists():
-        return Fault("stale", str(page), "other results, figures or sources")
-    return (
-        None
-        if page.read_bytes() == current.read_bytes()
-        else Fault("edited", str(page), f"differs from {current}")
-    )
+        return Fault(
+            "stale", str(page), "other results, figures or sources; make report makes the present one"
+        )
+    if page.read_bytes() != current.read_bytes():
+        return Fault("edited", str(page), f"it differs from {current}; make report writes it again")
+    return None
 
 
 def main(options: argparse.Namespace) -> int:

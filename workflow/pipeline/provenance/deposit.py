@@ -12,7 +12,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from workflow.lib.identity import sha256
+from workflow.lib.identity import ROOT, sha256
+from workflow.pipeline.described import DESCRIPTIONS
 from workflow.pipeline.plan import report_stem, runs_of, stem_of
 from workflow.pipeline.provenance.audit import check
 from workflow.pipeline.publish import copies
@@ -53,7 +54,10 @@ def main(options: argparse.Namespace) -> None:
     results = runs_of(plan, plan, quality)
     costs = [cost for path in results if os.path.exists(cost := path.replace(".h5", ".cost.json"))]
     paths = {*git("ls-files"), *results, *costs, *(path for panel in plan.values() for path in panel.reads)}
-    paths |= {*map(str, Path("build/describe").glob("*.json"))}  # for status and load_panel before make build
+    descriptions = DESCRIPTIONS.relative_to(ROOT).glob(
+        "*.json"
+    )  # for status and load_panel before make build
+    paths |= {*map(str, descriptions)}
     for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
         paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}
     archive = Path(f"build/deposit/lorentz-gas-{quality}.zip")

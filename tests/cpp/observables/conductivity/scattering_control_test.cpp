@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "engine/path.hpp"
 #include "statistics/time_integral.hpp"
 #include "support/sample.hpp"
 
@@ -28,15 +29,15 @@ struct Arrival {
 /// late: a mutant that uses the momentum after a collision instead of that before.
 Watched watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
   const double c = std::sqrt(1 - sigma * sigma);
-  const Blocks window(10, 60, 1);
+  const Window window(10, 60);
   ScatteringControl control({.cells = 8, .sigma = assumed_sigma, .gamma = 1});
-  TimeIntegral energy(window);
+  TimeIntegral energy(Blocks(10, 60, 1));
   std::exponential_distribution<double> interval(10);
   std::normal_distribution<double> normal;
   std::bernoulli_distribution scatters(1. / 8);
   const auto after = [&](double time) {
     const Arrival next{time + interval(generator), normal(generator), scatters(generator)};
-    if (window.contain(next.time)) control.arrival(next.time, next.u, next.scattered);
+    if (window.contains(next.time)) control.arrival(next.time, next.u, next.scattered);
     return next;
   };
   double momentum = 3;  // far from equilibrium
