@@ -35,8 +35,8 @@ void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double
   lists_.reset(flights.size(), later_.size());
   // The clock itself resolves no more than 2^52 ticks.
   ticks_per_time_ = std::clamp(rate / events_per_bucket, 1 / end_time_, 0x1p52 / end_time_);
-  const std::uint64_t first = tick_of(now);
-  revolution_end_ = (first | bucket_mask_) + 1;
+  const std::uint64_t first = tick_at(now * ticks_per_time_);
+  revolution_end_ = static_cast<double>((first | bucket_mask_) + 1);
   // The part of the revolution that is over counts as planned.
   counted_from_ =
       taken_ - static_cast<std::uint64_t>(events_per_bucket * static_cast<double>(first & bucket_mask_));
@@ -78,7 +78,7 @@ std::uint32_t EventQueue::take_first_of(std::uint32_t& bucket, double until) {
 /// False if the next revolution begins after `until`, which is not after the end. Rebuilds the wheel if the
 /// rate of events is far from what was planned or the population has doubled.
 bool EventQueue::begin_revolution(double until) {
-  if (tick_of(until) < revolution_end_) return false;
+  if (until * ticks_per_time_ < revolution_end_) return false;
   const double planned = events_per_bucket * static_cast<double>(bucket_mask_ + 1);
   const double ratio = static_cast<double>(taken_ - std::exchange(counted_from_, taken_)) / planned;
   if (ratio < 0.5 || ratio > 1.5 || waiting_ > 2 * planned_for_) {
@@ -89,15 +89,15 @@ bool EventQueue::begin_revolution(double until) {
     return true;
   }
   ChunkedLists::List& due = later(revolution_end_);
-  revolution_end_ += bucket_mask_ + 1;
+  revolution_end_ += static_cast<double>(buckets_.size());
   word_ = 0;
   lists_.clear(current_);
   current_ = std::exchange(due, 0);
   Cursor cursor(*this);
   lists_.for_each(current_, [&](std::uint32_t slot) {
-    const std::uint64_t tick = tick_of(lists_[slot].time);
-    if (tick < revolution_end_) {
-      cursor.link(slot, tick);
+    const double ticks = lists_[slot].time * ticks_per_time_;
+    if (ticks < revolution_end_) {
+      cursor.link(slot, tick_at(ticks));
       --waiting_;
     } else {
       lists_.append(due, Flight(lists_[slot]));

@@ -86,13 +86,29 @@ void add_conductivity(Group& group, const OpenChain& chain, const std::string& s
   ratio("kappa_particle", "-J_U N / difference of <p^2>/m of the arrivals", rise_of_particles, chain.cells);
 }
 
-/// Correlation coefficient r over replicas of two tallies with the error of normal records, (1 - r^2)/sqrt(R
-/// - 1); NaN if one does not vary.
-Estimate correlation_coefficient(const Records& records, Tally one, Tally other) {
-  const Eigen::MatrixXd x = centred(standardised(records, {one.first, other.first}));
-  const double found = x.col(0).dot(x.col(1)) / (x.col(0).norm() * x.col(1).norm());
-  const double r = std::abs(found) <= 1 ? found : std::numeric_limits<double>::quiet_NaN();
-  return {{r}, {(1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1)}};
+/// Adds the correlation coefficients r over replicas of what a conductivity is calculated from, with the
+/// error of normal records, (1 - r^2)/sqrt(R - 1); NaN if one does not vary. Errors of functions of several
+/// follow from them.
+void add_correlations(Group& group) {
+  const std::string description = "0: J_U, 1: J_n, 2: T_1, 3: T_N";
+  const Axis one{"quantity", "1", description, {0, 1, 2, 3}}, other{"other", "1", description, {0, 1, 2, 3}};
+  group.statistics(
+      {{"correlation", "1", "Correlation coefficients over replicas", {one, other}}},
+      [](const Records& records) {
+        const Columns columns =
+            columns_of({tallies.energy_current, tallies.particle_current, tallies.temperature});
+        Eigen::MatrixXd x = centred(standardised(records, columns));
+        for (auto column : x.colwise()) column /= column.norm();
+        const Eigen::MatrixXd products = x.transpose() * x;
+        Estimate found;
+        for (Eigen::Index i = 0; i < products.rows(); ++i)
+          for (Eigen::Index k = 0; k < products.cols(); ++k) {
+            const double r = i == k ? std::round(products(i, k)) : products(i, k);  // NaN stays NaN
+            found.mean.push_back(r);
+            found.standard_error.push_back((1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1));
+          }
+        return found;
+      });
 }
 
 /// What restricts the meaning of the results.
@@ -117,11 +133,7 @@ Study conductivity(const StationaryParameters& parameters) {
   });
   Group plain;
   add_conductivity(corrected, chain, "", "");
-  corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},
-                       [](const Records& records) {
-                         return correlation_coefficient(records, tallies.energy_current,
-                                                        tallies.particle_current);
-                       });
+  add_correlations(corrected);
   add_conductivity(plain, chain, "_plain", ", without control variates");
   Study study = stationary_study(
       parameters, tallies, [=] { return EndsAndOpenings(chain, window); }, {corrected, plain},

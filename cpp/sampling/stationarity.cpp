@@ -12,7 +12,7 @@
 namespace lorentz {
 namespace {
 
-constexpr double level = 1e-4;
+constexpr double level = 1e-4, tolerated_gain = 1e-3;
 constexpr std::size_t least = 8;  // replicas; with fewer even ten standard errors could be chance
 
 /// Smallest p-value of the hypotheses that the mean of a column is 0, times their number [eq. 51]. Records
@@ -35,11 +35,12 @@ double smallest_p_value(const Records& records, const Columns& columns, std::siz
 
 }  // namespace
 
-Group stationarity(const DriftTallies& tallies) {
+Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
   Group group;
   const std::vector<Description> descriptions{
       {"drift_p_value", "1", "p-value of no drift of currents, temperatures and energy"},
-      {"stationary", "1", "1: drift_p_value above 1e-4"}};
+      {"particle_gain", "1", "Particles that enter minus those that leave, over those that enter"},
+      {"stationary", "1", "1: drift_p_value above 1e-4, particle_gain not above 1e-3"}};
   group.statistics(descriptions, [=](const Records& records) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Columns controls = columns_of({tallies.injection});
@@ -49,7 +50,12 @@ Group stationarity(const DriftTallies& tallies) {
                  of_energy = smallest_p_value(records, columns_of({tallies.energy}), 0);
     // Half of the level for each, NaN left out.
     const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);
-    return Estimate{{p_value, p_value > level ? 1. : 0.}, {none, none}};
+    const Estimate gain = jackknife(records, [=](TallyMeans mean) {
+      return std::vector{mean[tallies.particles][0] / (chain.left.rate + chain.right.rate)};
+    });
+    const double share = gain.mean.front(), error = gain.standard_error.front();
+    const bool stationary = p_value > level && !(share - 5 * error > tolerated_gain);
+    return Estimate{{p_value, share, stationary ? 1. : 0.}, {none, error, none}};
   });
   return group;
 }
@@ -59,8 +65,11 @@ std::vector<std::string> remarks_on_stationarity(const Results& results) {
   if (std::isnan(p_value))
     return {"not tested whether stationary: too few replicas, or nothing varies; choose more --replicas"};
   if (quantity_named(results, "stationary").mean.front() == 1) return {};
-  return {fmt::format("not stationary: the p-value of no drift is {:.1g}; choose a longer --relaxation-time",
-                      p_value)};
+  return {
+      fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles grows by "
+                  "{:.2g} of those "
+                  "injected; choose a longer --relaxation-time",
+                  p_value, quantity_named(results, "particle_gain").mean.front())};
 }
 
 }  // namespace lorentz

@@ -20,6 +20,7 @@ TEST(Drift, ChangesBetweenTheHalves) {
   const DriftTallies tallies(schema);
   Drift drift(chain, window);
   drift.on_injection(End::left, 3, 2);
+  drift.on_injection(End::left, 3, 0);
   drift.on_exit(End::right, 7, 4);
   drift.on_exit(End::left, 10, -8);
   for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U})
@@ -28,11 +29,12 @@ TEST(Drift, ChangesBetweenTheHalves) {
   TallySums sums(schema);
   drift.record(tallies, sums);
   EXPECT_EQ(sums[tallies.energy_current][0], (0.25 * 16 - 0.25 * 4) / 4);
-  EXPECT_EQ(sums[tallies.particle_current][0], 0);
+  EXPECT_EQ(sums[tallies.particle_current][0], -0.125);
   EXPECT_EQ(sums[tallies.energy][0], (2. - 8.) / 8);
+  EXPECT_EQ(sums[tallies.particles][0], 1. / 8);
   const auto temperature = sums[tallies.temperature], injection = sums[tallies.injection];
   EXPECT_EQ(std::vector(temperature.begin(), temperature.end()), (std::vector<double>{0, 16 - 4, 64 - 16}));
-  EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{-1, -2, -2, 0, 0, 0}));
+  EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{-2, -2, -2, 0, 0, 0}));
 }
 
 /// drift_p_value of normal records of variance 1, with `shift` standard errors of the mean in one column.
@@ -48,7 +50,7 @@ double p_value(std::size_t replicas, std::size_t shifted, double shift, std::uin
     row[shifted] += shift / std::sqrt(static_cast<double>(replicas));
     records.append(row);
   }
-  return quantity_named(stationarity(tallies).estimate(records), "drift_p_value").mean.front();
+  return quantity_named(stationarity(tallies, chain).estimate(records), "drift_p_value").mean.front();
 }
 
 // The energy has half of the level, the other five columns the other half, which is exact for p << 1.
@@ -66,6 +68,26 @@ TEST(Stationarity, DriftOfOneColumnIsFound) {
     EXPECT_LT(p_value(32, column, 12, 1), 1e-4) << column;
     EXPECT_GT(p_value(32, column, 0, 1), 1e-4) << column;
   }
+}
+
+// Detected mistakes: the gain is compared with its error alone, so that the slow growth of every chain
+// counts; with the number of particles in place of their share.
+TEST(Stationarity, GainOfParticles) {
+  TallySchema schema;
+  const DriftTallies tallies(schema);
+  const auto stationary = [&](double gain) {
+    Records records(schema.width());
+    for (const double noise : {-1., 1., -1., 1., -1., 1., -1., 1., -1., 1.}) {
+      std::vector<double> row(schema.width(), noise);
+      row[tallies.particles.first] = gain + 1e-3 * noise;
+      records.append(row);
+    }
+    const OpenChain fed{.cells = 5, .left = {6, 1}, .right = {4, 1}};
+    return quantity_named(stationarity(tallies, fed).estimate(records), "stationary").mean.front();
+  };
+  EXPECT_EQ(stationary(0.0099), 1);
+  EXPECT_EQ(stationary(0.0105), 1);
+  EXPECT_EQ(stationary(0.013), 0);
 }
 
 // Detected mistake: the p-value of too few replicas is 1, so that they count as stationary.
