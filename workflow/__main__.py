@@ -23,6 +23,7 @@ from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
     OVERRIDES,
     Selection,
+    default_panels,
     load_plan,
     products_of,
     report_stem,
@@ -110,6 +111,8 @@ def prepare(target: str, options: argparse.Namespace) -> None:
         lock_products()
         build()
     options.plan = load_plan(options.quality)
+    if target == "figures":
+        options.panels = default_panels(options.plan)
 
 
 def require_profile(profile: str) -> None:
@@ -159,7 +162,7 @@ def make(target: str, options: argparse.Namespace) -> int:
     if options.dry:
         print("\n".join(missing) or "Nothing to be made")
         return 0
-    for panel in (options.plan[name] for name in options.panels if options.plan[name].replaced):
+    for panel in (options.plan[name] for name in options.panel.split() if options.plan[name].replaced):
         print(
             f"{panel.name}: other {', '.join(panel.replaced)} in quality/{quality.partition('_')[0]}.yaml than in paper.yaml",
             flush=True,

@@ -58,7 +58,9 @@ def named(values: Mapping[str, Any]) -> Callable[..., Any]:
 levels = 10 * np.cumprod([1, 1.1, 1.2, 1.3, 1.4])
 plateau = {"plateau": lambda run, t: levels if run.name == "unit-chain" else t}
 claim("filling.stationary_above_front", {"fig01": plateau}, [0.1, 0.2, 0.3, 0.4])
-exponents = {"unit-chain": -0.15, "paper": -0.2, "short": -0.3}
+slope = {"log_slope": named({"unit-chain": 1.25 * levels[-1], "paper": 1.0})}
+claim("filling.grows_logarithmically", {"fig01": plateau | slope}, [0.25])
+exponents = {"unit-chain": -0.15, "paper": -0.2}
 claim("filling.front_falls", {"fig01": {"front_exponent": named(exponents)}}, [-0.15])
 
 # Profiles of 30 cells.
@@ -119,7 +121,7 @@ def excess(run: Run, end: np.ndarray) -> np.ndarray:
 
 both = {"density_excess": excess}
 claim(
-    "profiles.boundary_grows", {"ext05": both, "fig02_upper": both},
+    "profiles.boundary_grows", {"rates": both, "fig02_upper": both},
     [(slope + 0.1 * lever, abs(0.1 * lever)) for slope in (1, 2)], density_excess=1e-8,
 )  # fmt: skip
 
@@ -202,6 +204,20 @@ def at_centre(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 outer = P[(abs(P) > math.sqrt(0.5 * (COLD + HOT))) & SEEN]
 claim("fluxes.deviations_central", {"fig03_inset": {"flux": at_centre}}, [*(-1e-3 * outer), 0.2])
+
+
+def falling(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """F_N whose deviation in the innermost outgoing bins is -0.8 and 1.2 times N^-0.9."""
+    if run.options["cells"] == "continuum":
+        return HEIGHT + 0 * p
+    outgoing = np.where(place == 0, p < 0, p > 0)
+    part = np.select([p == -1, p == 1], [-0.8, 1.2], 7) * run.options["cells"] ** (
+        -0.9 if run.replicated else 3
+    )
+    return HEIGHT + np.where(outgoing, part, 3)
+
+
+claim("fluxes.tends_to_kinetic", {"fig03_inset": {"flux": falling}}, [-0.9])
 
 
 # F_30 minus the solution of the kinetic equation: it differs from bin to bin and between the ends.

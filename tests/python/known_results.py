@@ -19,6 +19,7 @@ DEFAULTS = {
     "cells": "continuum",
     "zero-total-momentum": False,
     "rule": "elastic",
+    "gamma": "N",
 }  # defaults of options that the plan does not give
 
 Fill = Callable[[Run], Mapping[str, Quantity]]
@@ -39,10 +40,10 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
 def plan(quality: str) -> dict[str, Panel]:
     """The plan, with the first EQUAL runs of the heat peak."""
     panels = load_plan(quality)
-    runs = panels["ext03"].runs
+    runs = panels["peaks"].runs
     omitted = [run for run in runs if run.series == "heat"][EQUAL:]
     kept = tuple(run for run in runs if run not in omitted)
-    return panels | {"ext03": replace(panels["ext03"], runs=kept)}
+    return panels | {"peaks": replace(panels["peaks"], runs=kept)}
 
 
 class Known(Data):
@@ -86,6 +87,8 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
         "distance": np.arange(1.0, cells // 2 + 1),
         "decade": starts,
+        "quantity": np.arange(4.0),
+        "other": np.arange(4.0),
         "window": np.sort([*starts, *(2 * starts)]),
     }
 
@@ -119,7 +122,7 @@ def drawn(known: Known, random: np.random.Generator) -> Known:
     def noisy(result: Result) -> Result:
         quantities = dict(result.quantities)
         for name, exact in result.quantities.items():
-            if exact.count is not None and name != "stationary":
+            if exact.count is not None and name not in ("stationary", "correlation"):
                 shape, freedom = exact.mean.shape, result.replicas - 1
                 mean = exact.mean + exact.error * random.standard_normal(shape)
                 error = exact.error * np.sqrt(random.chisquare(freedom, shape) / freedom)

@@ -67,7 +67,7 @@ def cheaper(name: str, monkeypatch: pytest.MonkeyPatch) -> Case:
         return case
     orders = [replace(order, error=0.0) for order in pulse.heat_peak(data(case))]
     monkeypatch.setattr(pulse, "heat_peak", lambda _: orders)
-    return replace(case, world={panel: given for panel, given in case.world.items() if panel != "ext03"})
+    return replace(case, world={panel: given for panel, given in case.world.items() if panel != "peaks"})
 
 
 @pytest.mark.parametrize("name", [name for name in CASES if name != COMPUTED])

@@ -69,7 +69,7 @@ def test_an_exponent_takes_two_stationary_sizes_one_of_which_is_large() -> None:
 def test_the_last_octave_of_the_chains_without_particle_current() -> None:
     """κ_0 ∼ √N up to 128 cells and N^0.2 beyond."""
     response = linear_response(lambda cells: 128**0.5 * (cells / 128) ** (0.5 if cells < 128 else 0.2))
-    data = Known({"ext11": truth(response | {"stationary": 1}, 1e-6)})
+    data = Known({"density": truth(response | {"stationary": 1}, 1e-6)})
     assert growth.without_particle_current(data, last=2).value == pytest.approx(0.2, abs=1e-3)
 
 

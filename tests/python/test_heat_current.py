@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Measure, Program
-from tests.python.test_mode_coupling import SQUARE_INTEGRAL
-from workflow.figures.ext13 import amplitudes, longest_rings, tabulate
 from workflow.lib.load import Quantity, Result
-from workflow.physics.mode_coupling import Chain, logarithm_at
+from workflow.physics.mode_coupling import Chain
+from workflow.physics.rings import tabulate
 
 T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
 ZETA = FUGACITY * LENGTH
@@ -127,11 +126,10 @@ def ring(times: list[float], error: float, power: float = 4 / 3, **options: obje
 
     middle = np.sqrt(time[1:] * time[:-1])
     parameters = {"temperature": 1.0, "cell-length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit-from": 2.0,
-                  "rule": "elastic", "replicas": 64}  # fmt: skip
+                  "rule": "elastic", "gamma": "N", "replicas": 64}  # fmt: skip
     quantities = {
         "heat_variance": quantity(time**power, error, time=time),
         "local_exponent": quantity(np.full(len(middle), power), error, middle=middle),
-        "amplitude": quantity(np.array(0.4), error),
     }
     return Result(ROOT, parameters | options, {}, quantities)
 
@@ -140,56 +138,13 @@ def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
     """A short ring ends at t = 4, where the long one takes over its octave."""
     results = [ring([1, 2, 4], 0.01), ring([2, 4, 8], 0.02, power=1.3)]
     results.append(ring([1, 2, 4, 8], 0.01, 1, rule="random-direction"))
+    results.append(ring([1, 2, 4, 8], 0.001, 1.1, gamma=90))
     table = tabulate(results)
+    passing = table[table.passing == 0.1]
+    table = table[table.passing == 0]
+    np.testing.assert_allclose(passing.heat_variance, passing.time**1.1)
     sound, random = (table[table.rule == rule] for rule in ("elastic", "random-direction"))
     assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
     np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.3])
     np.testing.assert_allclose(sound.local_exponent, [4 / 3, 4 / 3, 1.3, np.nan])
     np.testing.assert_allclose(sound.middle, [2**0.5, 8**0.5, 32**0.5, np.nan])
-    assert sound.predicted.isna().tolist() == [True, False, False, False]
-    assert random.predicted.isna().all()
-    theory = Chain(0.8, 1 / 3, slow_logarithm=logarithm_at(4)).heat_amplitude
-    (row,) = amplitudes(longest_rings(results[:2]), []).to_dict("records")
-    assert (row["fit_from"], row["fit_to"]) == (2, 8)
-    assert row["amplitude_ratio"] == pytest.approx(0.4 / theory)
-
-
-def test_the_ratio_to_gaussian_sound() -> None:
-    """The sound peak has the profile of f_KPZ, its area and speed, in units that are not those of T and λ; noise is subtracted."""
-    temperature, length, time = 2.0, 0.5, 100.0
-    heat = ring(
-        [100, 400],
-        0.01,
-        **{"temperature": temperature, "cell-length": length, "fugacity": 1.6, "fit-from": 100.0},
-    )
-    unit = Chain(0.8, 1 / 3, slow_logarithm=logarithm_at(200 * temperature**0.5 / length))
-    scaled = time * temperature**0.5 / length
-    cells = 2001
-    distance = np.abs(np.arange(cells) - cells // 2)
-    peak = temperature * unit.sound_peak(distance, scaled)
-    noise = 0.01 * peak.max()
-    axes = {"time": np.array([time]), "cell": np.arange(cells)}
-    units = {"time": "time", "cell": "1"}
-    quantities = {
-        "momentum_correlation": Quantity(
-            np.sqrt(peak**2 + noise**2)[None],
-            np.full((1, cells), noise),
-            None,
-            None,
-            axes,
-            "1",
-            units,
-            {},
-            None,
-        ),
-        "peak": Quantity(
-            np.array([1.0]), np.array([0.01]), None, None, {"time": np.array([time])}, "1", units, {}, None
-        ),
-    }
-    sound = Result(ROOT, heat.parameters, {}, quantities)
-    (row,) = amplitudes([heat], [sound]).to_dict("records")
-    gaussian = float(unit.gaussian_heat_correlation(SQUARE_INTEGRAL * unit.self_coupling ** (-2 / 3)))
-    assert row["gaussian_ratio"] == pytest.approx(0.4 / gaussian, rel=2e-3)
-    assert row["gaussian_ratio_error"] == pytest.approx(
-        row["gaussian_ratio"] * np.hypot(0.01, 0.01), rel=1e-6
-    )

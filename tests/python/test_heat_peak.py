@@ -16,7 +16,7 @@ from workflow.pipeline.plan import Run
 
 
 def known(profile: Callable[..., object], error: float) -> Known:
-    return Known({"ext03": truth({"heat_correlation": profile}, error)})
+    return Known({"peaks": truth({"heat_correlation": profile}, error)})
 
 
 @pytest.mark.parametrize("order", [1, 1.234, 5 / 3, 2, 2.51, 3])

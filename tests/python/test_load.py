@@ -117,6 +117,20 @@ def test_a_result_that_is_open_elsewhere_in_the_process(path: Path) -> None:
         assert load(path)["flux"].to_xarray().identical(before)
 
 
+def test_netcdf_with_a_flag(program: Program, tmp_path: Path) -> None:
+    program(
+        "displacement",
+        zero_total_momentum=True,
+        cells=3,
+        particles_per_cell=2,
+        observation_time=1,
+        replicas=2,
+    )
+    load(tmp_path / "out.h5").to_xarray().to_netcdf(tmp_path / "out.nc")
+    with xarray.open_dataset(tmp_path / "out.nc") as saved:
+        assert saved.attrs["zero-total-momentum"] == 1
+
+
 def test_a_file_that_cannot_be_opened_is_not_called_damaged(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="Is a directory"):
         load(tmp_path)

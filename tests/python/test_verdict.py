@@ -106,3 +106,9 @@ def test_level_and_bound() -> None:
     moved = with_systematic(Estimate("", 1.0, 0.1, systematic=0.5), [0.7, 1.1, math.nan])
     assert moved.systematic == pytest.approx(0.8)
     assert with_systematic(Estimate("", 1.0, 0.1), [math.nan]).systematic == 0
+
+
+def test_wider_bands() -> None:
+    """Detected mistakes: edges are scaled about 0; the open side of a band becomes NaN."""
+    assert Band(0.95, 1.05).wider(2) == Band(pytest.approx(0.9), pytest.approx(1.1))
+    assert Band.of("above 0.5").wider(2) == Band(0.5, math.inf)

@@ -102,7 +102,7 @@ def test_no_quality_contradicts_another(smoke: Path, gallery: Path) -> None:
     for quality, folder in (("release", ROOT / "docs/gallery"), ("smoke", gallery)):
         with (folder / "numbers.csv").open(newline="") as file:
             for line in csv.DictReader(file):
-                verdicts[line["claim"], line["kind"]][quality] = line["verdict"]
+                verdicts[line["claim"], line["kind"]][quality] = line["claim_verdict"]
     for quality in ("standard", "paper"):
         plan = load_plan(quality)
         if all((smoke / path).exists() for path in runs_of(plan, plan, quality)):

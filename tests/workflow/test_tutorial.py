@@ -46,7 +46,7 @@ def test_a_panel_of_your_own(project: Project) -> None:
     alone = load(project.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02
-    (stated,) = re.findall(r"From an empty chain κ is (.*) after 10", PANEL)
+    (stated,) = re.findall(r"From an empty chain κ is (.*) after 100", PANEL)
     assert "kappa: " + " ".join(re.findall(r"[\d.]+\([\d.]+\)", stated)) in printed
     assert "stationary: 0.0 0.0 1.0" in printed
 

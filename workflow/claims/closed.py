@@ -52,7 +52,7 @@ def persistent(data: Data) -> list[Estimate]:
 
 def waiting_half(data: Data) -> list[Estimate]:
     """Exponent of the waiting times at sigma = 1/2. Its change with the relaxation time is a systematic error."""
-    runs = [run for run in data.of("ext07", "waiting") if run.parameters["relaxation-time"] >= 10]
+    runs = [run for run in data.of("ageing", "waiting") if run.parameters["relaxation-time"] >= 10]
     return [with_systematic(_waiting(data, 0.5), [float(run["exponent"].mean) for run in runs])]
 
 
@@ -80,7 +80,7 @@ def spreading_zero(data: Data) -> list[Estimate]:
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    runs = data.of("ext01", "paper", sigma=sigma, zero_total_momentum=False)
+    runs = data.of("fig07_inset", "aged", sigma=sigma)
     return [float(run["alpha"].mean) for run in runs]
 
 
@@ -101,15 +101,19 @@ def _spreading(data: Data, *, zero_total_momentum: bool) -> list[Estimate]:
 
 
 def random_directions(data: Data) -> list[Estimate]:
-    return _named(data.of("ext01", "random", "random-dense"), "alpha", "α")
+    return _named(data.of("fig07_inset", "random"), "alpha", "α")
 
 
 def momentum_changes(data: Data) -> list[Estimate]:
     """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. Changes below
     the rounding error are replaced by it."""
-    runs = [run for run in data.of("fig07_inset", "all", "zero-momentum") if run.parameters["sigma"]]
+    name = "log₁₀ of the relative change of Σp + ΣP"
+    drifts = []
+    for series, where in (("all", ""), ("zero-momentum", " = 0")):
+        runs = [run for run in data.of("fig07_inset", series) if run.parameters["sigma"]]
+        drifts += _named(runs, "momentum_drift", name + where)
     changes = []
-    for drift in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
+    for drift in drifts:
         change = max(drift.value, sys.float_info.epsilon)
         error = drift.error / (change * math.log(10))
         changes.append(Estimate(drift.label, math.log10(change), error, drift.freedom))
@@ -120,7 +124,7 @@ def ageing(data: Data) -> list[Estimate]:
     """Against the quasi-stationary estimate: the energy of a scatterer of the paper's chain over it, minus 1, at the start of every decade from
     t = 1 on; and in a chain of few particles, whose energy saturates, the slope against ln t in the last decade over that in the first
     decade from t = 1 on, minus that of the estimate."""
-    paper, few = (data.one("ext07", run) for run in ("energy", "few"))
+    paper, few = (data.one("ageing", run) for run in ("energy", "few"))
     numbers = []
     (times,) = paper["scatterer_energy_mean"].axes.values()
     expected = _estimate(paper, times)

@@ -18,6 +18,13 @@ def stationary_above_front(data: Data) -> list[Estimate]:
     return changes
 
 
+def grows_logarithmically(data: Data) -> list[Estimate]:
+    """dn/d ln t over the height of |p| n_t(p) above p_0 at the last time, minus 1: if that is stationary while p_0 falls as 1/t, both are equal."""
+    result = data.one("fig01", RUN)
+    slope, plateau = estimate(result, "log_slope"), estimate(result, "plateau", -1)
+    return [ratio(slope, plateau, "dn/d ln t over |p| n_t(p), minus 1").over(1, 1)]
+
+
 def front_falls(data: Data) -> list[Estimate]:
     """Exponent of p_0(t). For p_0 ~ 1/ln t it would be -1/ln t."""
     return [estimate(data.one("fig01", RUN), "front_exponent", label="d ln p₀/d ln t")]

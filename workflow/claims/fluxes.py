@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from scipy.special import erf
 
-from workflow.claims.data import Data, combination, estimate, freedom, ratio
+from workflow.claims.data import Data, by_size, combination, estimate, freedom, power, ratio
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Quantity, Result
 from workflow.physics.fluxes import SIMULATION, at, deviations
@@ -115,11 +115,10 @@ def deviations_central(data: Data) -> list[Estimate]:
     of the central ones over their mean magnitude."""
     table, degrees = _finite(data)
     temperature = np.mean(data.one("fig03_inset", "simulation_cells=2").ends("temperature"))
-    part = table[(table.kind == SIMULATION) & (table.cells == 2)].sort_values("momentum")
+    part = _of_size(table, 2)
     momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))
-    middle = len(momentum) // 2
-    left, right = (Estimate("", value[k], error[k], degrees) for k in (middle - 1, middle))
-    centre = combination([_magnitude(left), _magnitude(right)], [0.5, 0.5], "")
+    left, right = _central(part, degrees)
+    centre = _mean_magnitude(left, right)
     outer = np.flatnonzero((np.abs(momentum) > np.sqrt(temperature)) & (np.abs(momentum) < REACH))
     less = []
     for k in outer:
@@ -129,6 +128,32 @@ def deviations_central(data: Data) -> list[Estimate]:
     half = 0.5 / abs(centre.value)
     odd = combination([left, right], [half, -half], "odd part over the whole at p = 0")
     return [*less, _magnitude(odd)]
+
+
+def _of_size(table: pd.DataFrame, cells: int) -> pd.DataFrame:
+    return table[(table.kind == SIMULATION) & (table.cells == cells)].sort_values("momentum")
+
+
+def _central(part: pd.DataFrame, degrees: float) -> list[Estimate]:
+    """Deviations in both bins at p = 0."""
+    middle = len(part) // 2
+    return [
+        Estimate("", row.deviation, row.error, degrees)
+        for row in part.iloc[middle - 1 : middle + 1].itertuples()
+    ]
+
+
+def _mean_magnitude(left: Estimate, right: Estimate) -> Estimate:
+    return combination([_magnitude(left), _magnitude(right)], [0.5, 0.5], "")
+
+
+def tends_to_kinetic(data: Data) -> list[Estimate]:
+    """Exponent of F_N - F at p = 0, where it is largest, against N."""
+    table, degrees = _finite(data)
+    runs = by_size(data.of("fig03_inset", "simulation"))
+    cells = [run.parameters["cells"] for run in runs]
+    central = [_mean_magnitude(*_central(_of_size(table, size), degrees)) for size in cells]
+    return [power(runs, cells, central, f"d ln|F_N - F|/d ln N at p = 0, N = {cells[0]} to {cells[-1]}")]
 
 
 def on_top_of_kinetic(data: Data) -> list[Estimate]:

@@ -6,10 +6,21 @@ from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, by_size, estimate, freedom, log_slope, mean_slope, power
+from workflow.claims.data import (
+    Data,
+    MissingError,
+    by_size,
+    combination,
+    estimate,
+    freedom,
+    log_slope,
+    mean_slope,
+    power,
+)
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
+from workflow.physics import setting
 from workflow.physics.response import tabulate
 from workflow.physics.rings import chain
 
@@ -19,8 +30,9 @@ BULK = 16  # cells; shorter chains are dominated by their ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 LONG = 128  # cells; in shorter chains the exponents over the largest sizes still change
 LATE = 64  # time in λ/√T from which the exponents of rings are judged: earlier ones still fall
-# Series: of fig. 8 by γ, of ext. 13 with the paper's rule, and of ext. 11 at the spacing that has a thermodynamic limit.
-SIZES: dict[str | int, tuple[str, ...]] = {"N": ("deterministic", "large"), 1: ("rare", "rare-small")}
+DISTURBED = 0.1  # fraction of the collisions that are replaced by a pass or followed by a reversal
+# Series: of fig. 8 by γ, rings with the paper's rule, and chains at the spacing that has a thermodynamic limit.
+SIZES: dict[str | int, tuple[str, ...]] = {"N": ("every", "every-large"), 1: ("rare", "rare-small")}
 ELASTIC = tuple(
     f"{gas}{size}" for gas in ("light", "dense", "dilute", "sparse") for size in ("", "-long", "-longest")
 )
@@ -81,10 +93,10 @@ def _with_bulk(runs: Sequence[Result]) -> list[Result]:
 
 
 def superdiffusive(data: Data) -> list[Estimate]:
-    """beta of <Q²> ∼ t^beta, of every gas from t = LATE on in its longest ring. The errors of both ends are taken as independent, which
+    """beta of <Q²> ∼ t^beta, from t = LATE on in the longest ring of every gas that was measured so long. The errors of both ends are taken as independent, which
     overestimates that of their ratio."""
     numbers = []
-    for ring in _longest(data.of("ext13", *ELASTIC)):
+    for ring in _longest(data.of("momentum", *ELASTIC)):
         times = ring["heat_variance"].axes["time"]
         first = int(np.searchsorted(times, LATE))
         early, late = (estimate(ring, "heat_variance", k) for k in (first, -1))
@@ -96,31 +108,59 @@ def superdiffusive(data: Data) -> list[Estimate]:
 def at_fixed_density(data: Data) -> list[Estimate]:
     """Exponents of kappa at a density that does not depend on N: beta - 1 in rings, and those of kappa_0 between baths over all sizes and over
     the last octave."""
-    rings = _of_kappa(data.of("ext13", *ELASTIC))
+    rings = [_of_kappa(ring) for ring in _longest(data.of("momentum", *ELASTIC))]
     return [*rings, without_particle_current(data), without_particle_current(data, last=2)]
 
 
 def without_momentum(data: Data) -> list[Estimate]:
-    """Exponents of kappa where a fraction of the collisions reverses the scatterer and so breaks the conservation of momentum: beta - 1 in the
-    longest ring of every fraction, and that of kappa between the two largest sizes of chains between baths, as far as they are measured."""
-    slopes = _of_kappa(data.of("ext13", "reversal", "reversal-rare"))
-    chains: dict[float, list[Result]] = {}
-    for run in _with_bulk(_stationary(data.of("fig08", "reversal"))):
-        chains.setdefault(run.parameters["reversal-probability"], []).append(run)
-    pairs = {probability: runs[-2:] for probability, runs in chains.items() if len(runs) > 1}
-    return slopes + [
-        exponent(pair, f"d ln κ/d ln N, ε = {probability:g}") for probability, pair in pairs.items()
+    """Local exponent of kappa where a particle passes a scatterer with the probability DISTURBED, which conserves momentum, minus that where
+    this fraction of the collisions reverses the scatterer, which does not: of chains between the two largest sizes that both have, and
+    beta - 1 of rings over the last octave that both have."""
+    passing, reversed_ = (
+        {chain.parameters["cells"]: chain for chain in _stationary(chains)}
+        for chains in _disturbed(data, "chain-passing", "chain-reversal")
+    )
+    common = sorted(passing.keys() & reversed_.keys())[-2:]
+    of_chains = [
+        exponent([chains[size] for size in common], "d ln κ/d ln N") for chains in (passing, reversed_)
+    ]
+    rings = [max(runs, key=_last_time) for runs in _disturbed(data, "passing", "reversal")]
+    octaves = set.intersection(*(set(_middles(ring)) for ring in rings))
+    if not octaves:
+        raise MissingError("the rings with passing and with reversal have no octave in common")
+    time = max(octaves)
+    of_rings = [estimate(ring, "local_exponent", _middles(ring).index(time)) for ring in rings]
+    label = "passing minus reversal,"
+    return [
+        combination(of_chains, [1, -1], f"{label} {of_chains[0].label}"),
+        combination(of_rings, [1, -1], f"{label} β, t = {time:.0f}"),
     ]
 
 
-def _of_kappa(rings: Sequence[Result]) -> list[Estimate]:
-    """The exponents beta - 1 of kappa over the last octave of the longest rings."""
-    slopes = map(_last_octave, _longest(rings))
-    return [replace(slope.over(1, 1), label=f"β - 1, {slope.label}") for slope in slopes]
+def _disturbed(data: Data, passing: str, reversal: str) -> tuple[list[Result], list[Result]]:
+    """Runs of both series in which DISTURBED is the probability of the disturbance. Raises MissingError without one."""
+    runs = (
+        [run for run in data.of("momentum", passing) if abs(setting.passing(run) - DISTURBED) < 1e-6],
+        data.of("momentum", reversal, reversal_probability=DISTURBED),
+    )
+    if not runs[0]:
+        raise MissingError(f"no run of {passing} in which a fraction of {DISTURBED:g} passes")
+    return runs
+
+
+def _middles(ring: Result) -> list[float]:
+    """Middles of the octaves of a ring."""
+    return [*map(float, ring["local_exponent"].axes["middle"])]
+
+
+def _of_kappa(ring: Result) -> Estimate:
+    """The exponent beta - 1 of kappa over the last octave of a ring."""
+    label = f"β - 1, {_gas(ring)}, t = {_last_time(ring):.0f}"
+    return estimate(ring, "local_exponent", -1, label).over(1, 1)
 
 
 def _longest(rings: Sequence[Result]) -> list[Result]:
-    """The ring of longest time of every gas and collision rule."""
+    """The ring of longest time of every gas."""
     longest = {_gas(ring): ring for ring in sorted(rings, key=_last_time)}
     found = [ring for ring in longest.values() if _last_time(ring) > LATE]
     if not found:
@@ -128,26 +168,20 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
     return found
 
 
-def _last_octave(ring: Result) -> Estimate:
-    """d ln⟨Q²⟩/d ln t over the last octave."""
-    return estimate(ring, "local_exponent", -1, f"{_gas(ring)}, t = {_last_time(ring):.0f}")
-
-
 def _gas(ring: Result) -> str:
-    gas, probability = chain(ring), ring.parameters.get("reversal-probability")
-    broken = f", ε = {probability:g}" if ring.parameters["rule"] == "reversal" else ""
-    return f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}{broken}"
+    gas = chain(ring)
+    return f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
 
 
 def _last_time(ring: Result) -> float:
     """Geometric middle of the last octave of time."""
-    return float(ring["local_exponent"].axes["middle"][-1])
+    return _middles(ring)[-1]
 
 
 def without_particle_current(data: Data, last: int | None = None) -> Estimate:
-    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over all sizes or over the `last` largest. The
-    exponents over the smaller and over the larger half bound the systematic error."""
-    planned = data.of("ext11", *FIXED_SPACING)
+    """Exponent of kappa_0, the conductivity at J_n = 0 over the difference of the end scatterers' temperatures, at fixed spacing, over all
+    sizes or over the `last` largest. The exponents over the smaller and over the larger half bound the systematic error."""
+    planned = data.of("density", *FIXED_SPACING)
     moving = {run.parameters["cells"] for run in planned if not run.usable}
     runs = [run for run in planned if run.parameters["cells"] not in moving]
     table = tabulate(runs) if runs else None

@@ -3,15 +3,15 @@
 A row is one statement of the paper in one meaning: literal as printed, or intended if that is another one.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pandas as pd
 
 from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.claims.data import Claim, Data, MissingError
-from workflow.claims.verdict import Band, Verdict, level_of_each
+from workflow.claims.verdict import Band, Outcome, Verdict, level_of_each
 from workflow.pipeline.configuration import ConfigurationError
 
 CLAIMS_FILE = "data/claims.csv"
@@ -66,3 +66,9 @@ def judge(row: Mapping[str, str], data: Data, level: float) -> Judgement:
         return Judgement(row, Verdict(band, tuple(function_of(row)(data)), level))
     except MissingError as error:
         return Judgement(row, Verdict(band, (), level), str(error))
+
+
+def changed(judgements: Sequence[Judgement], factor: float) -> list[tuple[Judgement, Outcome]]:
+    """Rows whose verdict is another one if every band with two edges is wider by a factor, with this verdict."""
+    others = [(one, replace(one.verdict, band=one.verdict.band.wider(factor)).outcome) for one in judgements]
+    return [(one, outcome) for one, outcome in others if outcome is not one.verdict.outcome]

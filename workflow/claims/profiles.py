@@ -74,7 +74,7 @@ def linear_rates(data: Data) -> list[Estimate]:
 
 def boundary_grows(data: Data) -> list[Estimate]:
     """Excess density of the end cells against ln N at gamma = 1."""
-    every = [*data.of("ext05", "size"), data.one("fig02_upper", "rare")]
+    every = [*data.of("rates", "size"), data.one("fig02_upper", "rare")]
     results = by_size(run for run in every if run.parameters["cells"] >= FROM_SIZE)
     return [_slope(results, end, name) for end, name in enumerate(("first", "last"))]
 

@@ -24,7 +24,7 @@ from workflow.physics.peaks import (
 from workflow.physics.rings import chain
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
-SOUND = ("light", "light-long", "dense", "dense-long")  # series of ext. 3 for the sound peaks
+SOUND = ("light", "light-long", "dense", "dense-long")  # series of panel peaks for the sound peaks
 HEAT = "heat"  # and for the heat peak
 WIDE = 6  # cells; narrower heat peaks are not fitted
 PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
@@ -91,21 +91,15 @@ def _way(result: Result) -> Estimate:
 
 
 def damping(data: Data) -> list[Estimate]:
-    """Damping exponents of every octave of the paper's pulse at gamma = N, which agree for a power law. The bias of the fits of the peak's
-    height is a systematic error."""
-    result = data.one("fig09a", PAPERS_START)
-    local = result["local_damping_exponent"]
-    octaves = [
-        estimate(result, "local_damping_exponent", k, f"damping exponent, octave to t = {until:g}")
-        for k, until in enumerate(local.axes["until"])
-        if np.isfinite(local.mean[k])
-    ]
-    return [with_systematic(octave, [octave.value + PEAK_BIAS]) for octave in octaves]
+    """Damping exponent of the paper's pulse at gamma = N, fitted to all times. Fits that begin later and the bias of the fits of the peak's
+    height bound the systematic error."""
+    fit = _of_all_times(data.one("fig09a", PAPERS_START), "damping exponent")
+    return [replace(fit, systematic=fit.systematic + PEAK_BIAS)]
 
 
 def damping_of_sound(data: Data) -> list[Estimate]:
     """Damping exponent of the sound peak in equilibrium, of the longest record."""
-    rings = data.of("ext03", *SOUND)
+    rings = data.of("peaks", *SOUND)
     longest = max(rings, key=lambda ring: float(ring["peak"].axes["time"][-1]))
     return [_of_all_times(longest, f"sound peak in equilibrium, N = {longest.parameters['cells']}")]
 
@@ -147,9 +141,9 @@ def heat_peak(data: Data) -> list[Estimate]:
     """Order 1/xi of the stable law fitted to the heat peak in equilibrium, at every time at which the peak is several cells wide. The errors are
     those of a jackknife over equal runs, as neighbouring cells are correlated; the change without the central cells, in which slow
     particles make a cusp, is a systematic error. Raises MissingError."""
-    runs = data.of("ext03", HEAT)
+    runs = data.of("peaks", HEAT)
     if len(runs) < 2:
-        raise MissingError("ext03 has fewer than two runs of the heat peak")
+        raise MissingError("peaks has fewer than two runs of the heat peak")
     gas, orders = chain(runs[0]), []
     for k, time in enumerate(map(float, runs[0]["heat_correlation"].axes["time"])):
         record = Record(runs, k, time, gas, chain(runs[0], time))

@@ -64,6 +64,13 @@ class Band:
                 return cls(float(low), float(high))
         raise ValueError(f"'{text}' is not an acceptance band: write '0.95 to 1.05', 'above 0' or 'below 1'")
 
+    def wider(self, factor: float) -> "Band":
+        """Band with the same centre; a band with one edge stays as it is."""
+        if math.isinf(self.low) or math.isinf(self.high):
+            return self
+        centre, half = (self.low + self.high) / 2, factor * (self.high - self.low) / 2
+        return Band(centre - half, centre + half)
+
 
 @dataclass(frozen=True)
 class Verdict:

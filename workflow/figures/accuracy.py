@@ -1,5 +1,5 @@
-"""Accuracy against time: relative error of the target quantity of four programs, with several numbers of replicas, and of the kinetic
-solver at several resolutions, against CPU time.
+"""Accuracy against time: errors of four programs with several numbers of replicas, and of the kinetic solver at several resolutions,
+against CPU time; distances from a reference; bias against cost of the relaxation time and of the first time of a fit.
 
 The time is that of each run on the machine that made it, from the file of its cost (docs/format.md), so that this panel alone differs
 between machines. Control variates are used by programs where they can; the same runs also have the estimates without them.
@@ -18,12 +18,16 @@ from workflow.lib.caption import listed
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import FormatError, Result
 
+OCTAVE = "local_exponent"  # of the heat in rings; its last octave has the largest error
+STARTS = {"warm": ("o", style.BLACK), "cold": ("s", style.BLUE), "empty": ("^", style.VERMILLION)}
 LOOKS = {
-    "persistence": ("o", style.BLACK, "μ"),
-    "displacement": ("s", style.BLUE, "α"),
-    "conductivity": ("^", style.VERMILLION, "κ"),
-    "heat_current": ("v", style.GREEN, "A"),
-}  # marker, colour and symbol of the target quantity
+    "mu": ("o", style.BLACK, r"$\mu$"),
+    "alpha": ("s", style.BLUE, r"$\alpha$"),
+    "kappa": ("^", style.VERMILLION, r"$\kappa$"),
+    "amplitude": ("v", style.GREEN, "$A$"),
+    OCTAVE: ("D", style.ORANGE, r"$\beta$, last octave"),
+}  # marker, colour and symbol by quantity
+SYMBOLS = {"mu": "μ", "alpha": "α", "kappa": "κ", "amplitude": "A", OCTAVE: "β"}  # in the caption
 PLAIN = "_plain"  # suffix of estimates without control variates
 GAMMAS = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
 PAPER_POINTS = 4200
@@ -54,105 +58,133 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             rows.append(row | {"points": int(result["momentum_points"].mean)})
             continue
         name = str(provenance["target_quantity"])
-        for quantity in (name, f"{name}{PLAIN}"):
+        for quantity in (name, f"{name}{PLAIN}", OCTAVE):
             if quantity in result.quantities:
                 estimate, count = result[quantity], result.replicas
-                error = abs(float(estimate.error / estimate.mean))
-                sampled = {"replicas": count, "error_error": error / np.sqrt(2 * (count - 1))}
+                value, absolute = float(estimate.mean.flat[-1]), float(estimate.error.flat[-1])
+                error = abs(absolute / value)
+                sampled = {"replicas": count, "value": value, "error_error": error / np.sqrt(2 * (count - 1))}
                 rows.append(row | {"quantity": quantity, "error": error} | sampled)
     return pd.DataFrame(rows)
 
 
 def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots errors with control variates, or of programs without any, as full symbols, and without control variates as open ones. Lines:
-    1/sqrt(time) through the mean of the logarithms."""
-    for (program, quantity), part in table.groupby(["program", "quantity"], sort=False):
-        marker, color, symbol = LOOKS[program]
+    """Plots errors with control variates, or of quantities without any, as full symbols, and without control variates as open ones.
+    Lines: 1/sqrt(time) through the mean of the logarithms."""
+    for quantity, part in table.groupby("quantity", sort=False):
         plain = quantity.endswith(PLAIN)
-        look = style.points(
-            marker, color, "white" if plain else None, label=None if plain else f"{symbol}, {program}"
-        )
+        marker, color, symbol = LOOKS[quantity.removesuffix(PLAIN)]
+        look = style.points(marker, color, "white" if plain else None, label=None if plain else symbol)
         axes.errorbar(part.cpu_seconds, part.error, part.error_error, **look)
         law = np.exp(np.average(np.log(part.error * np.sqrt(part.cpu_seconds)), weights=part.replicas))
-        dashes = "dotted" if plain else "solid"
-        axes.plot(
-            part.cpu_seconds,
-            law / np.sqrt(part.cpu_seconds),
-            color=color,
-            linestyle=dashes,
-            linewidth=0.8,
-            zorder=1,
-        )
+        line: style.Look = {
+            "color": color,
+            "linestyle": "dotted" if plain else "solid",
+            "linewidth": 0.8,
+            "zorder": 1,
+        }
+        axes.plot(part.cpu_seconds, law / np.sqrt(part.cpu_seconds), **line)
     axes.plot(
-        [],
-        [],
-        color="grey",
-        linestyle="dotted",
-        marker="o",
-        markerfacecolor="white",
-        label="without control variates",
+        [], [], color="grey", linestyle="dotted", marker="o", markerfacecolor="white", label="without control"
     )
-    axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error")
-    style.label_within_decades(axes.xaxis)
-    known = table.error.notna().any()  # not with one replica
-    axes.set_ylim(*(None, 30 * table.error.max()) if known else (0.01, 1))  # space for the legend
-    axes.legend(loc="upper right", handlelength=1.8)
+    axes.set(xlabel="CPU time / s", ylabel="relative error")
+    if table.error.notna().any():  # matplotlib has no logarithmic axis without points
+        axes.set(xscale="log", yscale="log")
+        axes.set_ylim(top=30 * table.error.max())  # space for the legend
+    axes.legend(loc="upper right", ncols=2, handlelength=1.8)
+
+
+def draw_distances(axes: Axes, table: pd.DataFrame) -> None:
+    """Plots the distance of every estimate from that with the most replicas, over the errors of both."""
+    for quantity, part in table[~table.quantity.str.endswith(PLAIN)].groupby("quantity", sort=False):
+        marker, color, _ = LOOKS[quantity]
+        reference = part.loc[part.replicas.idxmax()]
+        others = part.drop(reference.name)
+        error = np.hypot(others.error * others.value, reference.error * reference.value)
+        axes.errorbar(
+            others.replicas, (others.value - reference.value) / error, **style.points(marker, color)
+        )
+    axes.axhspan(-2, 2, **style.WINDOW)
+    axes.axhline(0, **style.GUIDE)
+    axes.set(ylim=(-4, 4), xlabel="replicas", ylabel="distance from reference / error")
+    if table.error.notna().any():
+        axes.set_xscale("log")
+        style.label_within_decades(axes.xaxis)
 
 
 def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
     resolutions = table.drop_duplicates(["gamma", "points"]).sort_values("points")
     for (gamma, part), (marker, color, dashes) in zip(resolutions.groupby("gamma"), GAMMAS, strict=False):
-        axes.plot(
-            part.cpu_seconds,
-            part.error,
-            marker=marker,
-            color=color,
-            linestyle=dashes,
-            label=rf"$\gamma = {gamma:g}$",
-        )
-        for row in part.itertuples():
-            axes.annotate(
-                f"{row.points:.0f}",
-                (row.cpu_seconds, row.error),
-                (4, 3),
-                textcoords="offset points",
-                size=7,
-                color=color,
-            )
-    axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error of the currents")
-    axes.margins(0.12)
+        look: style.Look = {
+            "marker": marker,
+            "color": color,
+            "linestyle": dashes,
+            "label": rf"$\gamma = {gamma:g}$",
+        }
+        axes.plot(part.points, part.error, **look)
+    axes.set(xscale="log", yscale="log", xlabel="points in momentum", ylabel="relative error of the currents")
     style.label_within_decades(axes.xaxis)
-    axes.legend(loc="lower left")
+    axes.legend(loc="upper right")
 
 
-def gain(table: pd.DataFrame, program: str) -> float:
+def draw_relaxation(axes: Axes, results: Sequence[Result]) -> None:
+    """Plots the conductivity against the relaxation time, by the start."""
+    for start, (marker, color) in STARTS.items():
+        runs = [result for result in results if result.parameters["start"] == start]
+        table = pd.DataFrame(
+            [{"time": run.parameters["relaxation-time"]} | run.columns("kappa") for run in runs]
+        )
+        axes.errorbar(table.time, table.kappa, table.kappa_error, **style.points(marker, color, label=start))
+        moving = np.array([not run.usable for run in runs])
+        style.cross_out(axes, table.time.to_numpy(), table.kappa.to_numpy(), moving)
+    axes.set(xscale="log", xlabel="relaxation time", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
+    axes.legend(loc="best", title="start")
+
+
+def draw_first_times(axes: Axes, results: Sequence[Result]) -> None:
+    """Plots the fitted amplitude of the heat in rings against the first time of the fit."""
+    table = pd.DataFrame(
+        [{"time": run.parameters["fit-from"]} | run.columns("amplitude") for run in results]
+    ).sort_values("time")
+    marker, color, _ = LOOKS["amplitude"]
+    axes.errorbar(table.time, table.amplitude, table.amplitude_error, **style.points(marker, color))
+    axes.set(xscale="log", xlabel="first time of the fit", ylabel="amplitude $A$")
+    style.label_within_decades(axes.xaxis)
+
+
+def gain(table: pd.DataFrame, quantity: str) -> float:
     """Ratio of the times to one error without and with control variates, from the runs with the most replicas."""
-    rows = table[table.program == program]
-    most = rows[rows.replicas == rows.replicas.max()]
-    plain = most.quantity.str.endswith(PLAIN)
-    return float((most.error[plain].mean() / most.error[~plain].mean()) ** 2)
+    most = (
+        table[table.replicas == table.replicas.max()].drop_duplicates("quantity").set_index("quantity").error
+    )
+    return float((most[f"{quantity}{PLAIN}"] / most[quantity]) ** 2)
 
 
-@plots("conductivity spreading persistence heat kinetic")
+@plots("conductivity spreading persistence heat kinetic relaxation first-time")
 def draw(results: Sequence[Result]) -> Parts:
-    table = tabulate(results)
+    series = {
+        name: [result for result in results if result.series == name] for name in ("relaxation", "first-time")
+    }
+    table = tabulate([result for result in results if result.series not in series])
     sampled, kinetic = (part for _, part in table.groupby(table.program == "boltzmann"))
-    figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
-    draw_sampled(left, sampled)
-    draw_kinetic(right, kinetic)
-    style.letter(left, right)
+    figure, axes = plt.subplot_mosaic("aab;cde", figsize=(3 * style.COLUMN, 2 * style.HEIGHT))
+    draw_sampled(axes["a"], sampled)
+    draw_distances(axes["b"], sampled)
+    draw_relaxation(axes["c"], series["relaxation"])
+    draw_first_times(axes["d"], series["first-time"])
+    draw_kinetic(axes["e"], kinetic)
+    style.letter(*axes.values())
+    controlled = [name for name in LOOKS if f"{name}{PLAIN}" in set(sampled.quantity)]
     gains = [
-        f"{gain(sampled, program):.2g} for {LOOKS[program][2]}"
-        for program in LOOKS
-        if sampled[sampled.program == program].quantity.nunique() > 1
-    ]
+        f"{saved:.2g} for {SYMBOLS[name]}" for name in controlled if np.isfinite(saved := gain(sampled, name))
+    ] or ["an unknown size"]
     caption = f"""
-        Relative error against CPU time of one core. (a) Four programs with several numbers of replicas; lines: 1/√t. Control variates save
-        factors of {listed(gains)}. (b) Solver of the kinetic equation, estimated from a coarser solution, with its numbers of momentum
-        points; the paper uses {PAPER_POINTS} and states no error. Bars: uncertainty of the errors."""
+        Control variates (full symbols) save factors of {listed(gains)} in the CPU time to a given error. (a) Lines show 1/√t. (b) Distances from
+        the most precise estimates are divided by their errors; the grey band is two errors. (c) Crosses mark κ whose test of stationarity fails.
+        (d) Fits begin at several times. (e) The paper solves the kinetic equation with {PAPER_POINTS} points."""
     return figure, table, caption
 
 
 if __name__ == "__main__":
-    pure = dict.fromkeys(("error", "points"), "1")
+    pure = dict.fromkeys(("error", "points", "value"), "1")
     main(draw, "Accuracy against time", cpu_seconds="second", **pure)

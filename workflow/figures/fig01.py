@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import baths, parameters
+from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -58,15 +58,15 @@ def number_bins(axes: Axes, result: Result) -> None:
 
 
 def caption(results: Sequence[Result]) -> str:
-    exponent = style.format_quantity(results[0]["front_exponent"])
+    chain = results[0]
+    first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
-        Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
-        {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with front p_0; bottom: p_0 over
-        λ/et, above 1 at λ = {setting.spacing(results[-1])[1]}, as cells filled late. At λ = {setting.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
-        Bands, bars: standard errors."""
+        The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ =
+        {setting.spacing(chain)[1]}, its height goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. The columns have two
+        spacings (unstated in the paper), the rows the paper's bins, logarithmic bins, and p_0 over λ/et. {ERRORS}"""
 
 
-@plots("paper short unit-chain")
+@plots("paper unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)

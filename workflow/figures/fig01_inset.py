@@ -74,14 +74,15 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
 
 def caption(results: Sequence[Result]) -> str:
     chain = results[0]
+    shape = "straight" if straight(chain) else "curved"
     slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
     return f"""
-        Particles n(t) in an initially empty chain; {parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}. Top: n(t) and a + b ln t,
-        fitted in the shaded window if straight. Bottom: dn/d ln t (circles) and height of |p| n_t(p) (squares), which agree once a chain is
-        filled: at λ = {setting.spacing(chain)[1]}, {slope} and {height} in the end. {ERRORS}"""
+        The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {setting.spacing(chain)[1]}, it
+        is {shape} in ln t. (a), (b) Straight lines are fitted in the shaded windows. (c), (d) The slope and the height of |p| n_t(p), equal in
+        filled chains, end at {slope} and {height}. {ERRORS}"""
 
 
-@plots("paper short unit-chain")
+@plots("paper unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)

@@ -33,9 +33,9 @@ def caption(results: Sequence[Result]) -> str:
         for result in results
     )
     return f"""
-        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}. (a) Particles per cell, ρ(x), which grows with the
-        window, as slow particles accumulate; lines: through the shaded half. (b) ρ over the line.
-        The first cell exceeds the line by {excess}. {ERRORS}"""
+        The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell-length")}, {baths(results[0])}). Here the first
+        cell exceeds a line, fitted in the shaded half, by {excess}. (a) The density grows with time, as slow particles accumulate. (b) It is
+        divided by the lines. {ERRORS}"""
 
 
 @plots("deterministic rare")

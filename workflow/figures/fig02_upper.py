@@ -9,8 +9,9 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, parameters
+from workflow.lib.caption import ERRORS, baths, format_number, listed, parameters
 from workflow.lib.figure import Parts, main, plots
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -33,10 +34,16 @@ def caption(results: Sequence[Result]) -> str:
         f"{style.format_quantity(result['temperature_scatterer'], 0)} at γ = {setting.gamma(result)}"
         for result in results
     )
+    differences = pd.concat(tabulate(result) for result in results).reset_index(drop=True)
+    far = differences.loc[differences.particle_minus_scatterer.abs().idxmax()]
+    gamma, farthest = (
+        far.gamma,
+        format_with_error(abs(far.particle_minus_scatterer), far.particle_minus_scatterer_error),
+    )
     return f"""
-        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])} (dashed). (a) Temperature of scatterers (symbols)
-        and arriving particles (lines); right axis: E_K = T/2, as in the paper. (b) Particles minus scatterers of a cell. Neither profile
-        reaches the baths; that of γ = 1 is flatter: the first scatterer has {first}. {ERRORS}"""
+        The paper finds that the temperatures of scatterers and particles coincide and do not reach the baths ({parameters(results, "cells", "cell-length", "sigma")},
+        {baths(results[0])}). Here the first scatterer has {first}, next to T_L = {format_number(results[0].ends("temperature")[0])}.
+        (a) E_K is T/2. (b) Particles and scatterers differ most at γ = {gamma}, by {farthest}. {ERRORS}"""
 
 
 @plots("deterministic rare")

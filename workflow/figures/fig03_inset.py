@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, parameters
+from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Parts, main, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -25,7 +25,7 @@ MARKERS = ["o", "s", "^", "D"]  # one for each N
 
 
 def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
-    """One row per N: amplitude of the deviation, and its error for independent bins.
+    """One row per N: amplitude of the deviation, its largest value over the bins, and its error for independent bins.
 
     The deviation is projected on its mean-field shape in the shortest chain; the amplitude is the largest value of this part. Unlike the
     largest of noisy bins it has no bias."""
@@ -93,14 +93,20 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
+    printed = (table.absolute_as_printed / table.deviation).median()
+    points = amplitudes(table)
     first, last = (
-        f"{format_with_error(row.amplitude, row.error)} at N = {row.cells:.0f}"
-        for row in amplitudes(table).iloc[[0, -1]].itertuples()
+        format_with_error(100 * row.amplitude, 100 * row.error) for row in points.iloc[[0, -1]].itertuples()
+    )
+    normalised = 100 * printed * points.iloc[0]
+    short, long = points.cells.iloc[[0, -1]]
+    largest = (
+        f"{first} % of max F at N = {short} ({format_with_error(normalised.amplitude, normalised.error)} % if ∫F dp = 1)",
+        f"{last} % at N = {long}",
     )
     return f"""
-        Chains of N cells against the kinetic equation, leaving particles; {parameters(runs, "cell-length", "sigma", "gamma")},
-        {baths(runs[0])}. (a), (b) F_N − F; lines: mean field. (c) Amplitude, {first} and {last}. Dashed: the paper's limits,
-        {LIMITS[0][1]} for all N and {LIMITS[1][1]} for the longest, of max F or (green) if ∫F = 1. {ERRORS}"""
+        The paper plots F_N − F, chain minus kinetic equation, and finds it below {LIMITS[0][1]}, and below {LIMITS[1][1]} in the longest chain
+        ({parameters(runs, "sigma", "gamma")}). Here its maximum (c) is {listed(largest)}. (a), (b) Lines show the mean field. {ERRORS}"""
 
 
 @plots("simulation continuum mean-field")

@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
+from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -135,19 +135,26 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xlim(low, high + 0.45 * (high - low))  # space for the numbers
 
 
+def jumps_of(part: pd.DataFrame) -> str:
+    """Jumps at both ends of a chain, with errors."""
+    ends = part.drop_duplicates("x")
+    return listed(map(format_with_error, ends.jump, ends.jump_error))
+
+
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in measured(results) if setting.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
-    jumps = listed(
-        format_with_error(end.jump, end.jump_error) for end in unequal.drop_duplicates("x").itertuples()
-    )
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
-    difference = f"Difference, up to {float(f'{far:.1g}'):g} % of max F"
     if chain.parameters["gamma"] == "N":
-        difference += ", as mean field neglects correlations between collisions"
+        claim, neglected = "small jumps at p = 0", ", which neglects correlations,"
+    else:
+        claim, neglected = "that of the kinetic equation, which jumps at p = 0", ""
+    still = main[main.nu_left == main.nu_right]
+    equal = f", and {jumps_of(still)} at equal rates" if len(still) else ""
     return f"""
-        Flux F_N(p, x) of the particles behind both end scatterers; {parameters([chain], *CHAIN)}, {baths(chain)}. Black: mean field (kinetic
-        equation). (a), (b) F_N; right axis: over ν_L + ν_R. (c) {difference}. (d) Jump at p = 0, {jumps}. {ERRORS}"""
+        The paper plots the flux F_N(p, x) behind both end scatterers and finds {claim} ({parameters([chain], "cells", "cell-length", "sigma")}, {baths(chain)}).
+        (a) to (c) F_N differs from the kinetic equation (black){neglected} by at most {float(f"{far:.1g}"):g} % of max F. (d) The jumps are
+        {jumps_of(unequal)}{equal}. {ERRORS}"""
 
 
 @plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")

@@ -53,9 +53,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         far = series.loc[series.deviation.abs().idxmax()]
         largest.append(f"{format_with_error(far.deviation, far.mu_error)} at n = {particles}")
     return f"""
-        Probability μ that a particle keeps its direction in a scattering, closed chains, n particles per cell;
-        {parameters(results, "cells", "gamma", "temperature")}. (a) μ and the law arccos(σ)/π. (b) μ minus the law, largest {listed(largest)}; dashes:
-        the law at the energies measured before collisions. {ERRORS}"""
+        The paper plots the probability μ that a particle keeps its direction in a scattering and finds arccos(σ)/π ({parameters(results, "cells", "gamma", "temperature")}).
+        Here the largest differences are {listed(largest)} particles per cell. (a) The line shows the law. (b) Dashes show the law for the energies
+        measured before collisions. {ERRORS}"""
 
 
 @plots("paper dense")

@@ -12,8 +12,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, GAS, format_number, listed, parameters
+from workflow.lib.caption import ERRORS, format_number, listed, parameters
 from workflow.lib.figure import Parts, main, plots
+from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 
 Mark = tuple[str, str, str]  # marker, colour and dashes
@@ -77,15 +78,29 @@ def mark_outside(axes: Axes, table: pd.DataFrame, color: str, power: float, top:
     axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
 
 
-def caption(results: Sequence[Result]) -> str:
-    exponents = listed(
-        f"{style.format_quantity(result['exponent'])} at σ = {format_number(result.parameters['sigma'])}"
-        for result in results
-    )
+def above_exact(table: pd.DataFrame, result: Result) -> str:
+    """A sentence on the tail at sigma = 0 over the exact density of an infinite number of particles. A momentum that a scatterer holds
+    flies again when the next particle arrives, on average after λ/(n⟨|p|⟩): to first order in 1/n slow flights are more frequent by
+    ⟨p²⟩/(n⟨|p|⟩²) = π/2n."""
+    tail = table[(table.tau > cut(result)) & ~table.unsure]
+    if tail.empty:
+        return ""
+    exact = tail.gaussian_start
+    mean, error, _ = mean_of(tail.density / exact, tail.density_error / exact)
+    expected = 50 * np.pi / int(result.parameters["particles-per-cell"])
+    excess = format_with_error(100 * (mean - 1), 100 * error)
+    return f" At σ = 0 its tail is {excess} % above n → ∞; momenta held by scatterers explain π/2n = {expected:.2g} %."
+
+
+def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+    sigmas = [float(result.parameters["sigma"]) for result in results]
+    powers = listed(f"−{POWERS[sigma]} at σ = {format_number(sigma)}" for sigma in sigmas if sigma in POWERS)
+    exponents = listed(style.format_quantity(result["exponent"]) for result in results)
+    pairs = zip(results, tables, strict=True)
+    excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
     return f"""
-        Density Ψ(τ) of waiting times in closed chains, {parameters(results, "cells", "gamma", *GAS)}. (a) Ψ; blue: exact for σ = 0, n → ∞.
-        Below: Ψ times the paper's powers of τ. Black: fits of the shaded tail, exponents {exponents}. Open: errors above
-        {format_number(100 * UNSURE)} %; triangles: off frame. {ERRORS}"""
+        The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
+        they are {exponents}. (b), (c) Ψ is multiplied by the paper's powers.{"".join(excess)} {ERRORS}"""
 
 
 @plots("all")
@@ -112,7 +127,7 @@ def draw(results: Sequence[Result]) -> Parts:
         axes.axvspan(cut(results[0]), max(table.tau.max() for table in tables), **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")
-    return figure, pd.concat(tables), caption(results)
+    return figure, pd.concat(tables), caption(results, tables)
 
 
 if __name__ == "__main__":

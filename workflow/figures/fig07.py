@@ -53,10 +53,9 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
     last, paper = random.iloc[-1], results[0]
     without = next(style.format_quantity(result["alpha"]) for result in results if zero(result))
     return f"""
-        Spreading of tagged particles in closed chains, {parameters([paper], "sigma", "gamma", *GAS)}. (a) Mean square displacement;
-        lines: of the centre of mass. (b) Local exponents. In the shaded window α is {style.format_quantity(paper["alpha"])} at N = {cells(paper)}, as in
-        the paper: drift of the centre of mass, {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. With zero total
-        momentum α is {without}. {ERRORS}"""
+        The paper plots ⟨x²⟩ ∼ t^α and finds α slightly below 2 ({parameters([paper], "sigma", "gamma", *GAS)}). Here α, fitted in the shaded window,
+        is {style.format_quantity(paper["alpha"])} at N = {cells(paper)} and {without} with zero total momentum. (a) Lines show the drift of the centre of mass, in the end
+        {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. (b) Exponents are local. {ERRORS}"""
 
 
 @plots("all zero-momentum size")

@@ -1,4 +1,6 @@
-"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum and with none."""
+"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum, with none, and with random
+directions after collisions, of the paper's footnote. The table also has other relaxation times.
+"""
 
 from collections.abc import Sequence
 
@@ -6,18 +8,26 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, GAS, format_number, parameters
+from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters, rule
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
-# By zero total momentum: label, marker, colour, fill colour.
-CURVES = {
-    False: ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
-    True: ("zero total momentum", "s", style.VERMILLION, "white"),
+PAPER, ZERO = "random total momentum, as in the paper", "zero total momentum"
+RANDOM = RULE_PHRASES["random-direction"]
+LOOKS = {
+    PAPER: style.points("o", style.BLUE, label=PAPER),
+    ZERO: style.points("s", style.VERMILLION, "white", label=ZERO),
+    RANDOM: style.points("D", style.GREEN, label=RANDOM),
 }
+
+
+def kind(result: Result) -> str:
+    if rule(result) != "elastic":
+        return rule(result)
+    return ZERO if result.parameters["zero-total-momentum"] else PAPER
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -25,48 +35,58 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = [
         {
             "sigma": float(result.parameters["sigma"]),
-            "zero_total_momentum": bool(result.parameters["zero-total-momentum"]),
+            "kind": kind(result),
+            "relaxation_time": float(result.parameters["relaxation-time"]),
             **result.columns("alpha"),
             "converged": result.converged,
         }
         for result in results
     ]
-    return pd.DataFrame(rows).sort_values(["zero_total_momentum", "sigma"], ignore_index=True)
+    return pd.DataFrame(rows).sort_values(["kind", "sigma", "relaxation_time"], ignore_index=True)
 
 
-def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool) -> None:
-    label, marker, color, face = CURVES[zero]
-    part = table[table.zero_total_momentum == zero]
-    axes.errorbar(part.sigma, part.alpha, part.alpha_error, **style.points(marker, color, face, label=label))
+def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
+    look = LOOKS.get(name, style.points("P", style.BLACK, "white", label=name))
+    axes.errorbar(part.sigma, part.alpha, part.alpha_error, **look)
 
 
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    generic = table[table.sigma != 0].sort_values("alpha")  # at σ = 0 momenta are only exchanged
-    least = format_with_error(*generic[~generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[0])
-    most = format_with_error(*generic[generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[-1])
-    options = results[0].parameters
-    first = options["observation-time"] / 10 ** options["fit-decades"]
+def extreme(part: pd.DataFrame, row: int) -> str:
+    """The smallest (row 0) or the largest (row -1) exponent for σ ≠ 0; at σ = 0 momenta are only exchanged."""
+    return format_with_error(*part[part.sigma != 0].sort_values("alpha")[["alpha", "alpha_error"]].iloc[row])
+
+
+def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
+    kinds = dict([*shown.groupby("kind")])
+    random = f" and {extreme(kinds[RANDOM], -1)} with random directions" if RANDOM in kinds else ""
+    exchanged = kinds[ZERO][kinds[ZERO].sigma == 0]
+    exchange = "The exponents without drift are enlarged."
+    if len(exchanged):
+        alpha = format_with_error(*exchanged[["alpha", "alpha_error"]].iloc[-1])
+        exchange = f"At σ = 0 momenta are only exchanged, waits follow τ⁻³, and without drift α is {alpha}, tending to 1 slowly."
     return f"""
-        Exponent α of the spreading of tagged particles, closed chains, {parameters(results, "cells", "gamma", *GAS)}, fitted from t =
-        {format_number(first)} on. (a) With random total momentum, as in the paper, and with none; dashed: ballistic, diffusive. (b) The latter
-        enlarged. For σ ≠ 0, α is at least {least} with and at most {most} without total momentum. {ERRORS}"""
+        The paper plots α of ⟨x²⟩ ∼ t^α and finds 1 < α < 2 for σ ≠ 0 ({parameters(results, "gamma", "particles-per-cell")}). (a) Here it is at least
+        {extreme(kinds[PAPER], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""
 
 
-@plots("all zero-momentum")
+@plots("all zero-momentum aged random")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
+    aged = [result for result in results if result.series == "aged"]
+    shown = tabulate([result for result in results if result not in aged])
+    # Random directions: after the longest relaxation.
+    shown = shown.loc[~shown.duplicated(["kind", "sigma"], keep="last")]
     figure, (above, below) = style.stacked(2, 1, height=1.6)
-    for zero in CURVES:
-        draw_curve(above, table, zero)
-    draw_curve(below, table, True)
-    style.cross_out(above, table.sigma, table.alpha, table.converged == NOT_REACHED)
+    for name in dict.fromkeys([*LOOKS, *shown.kind]):
+        for axes in (above, below) if name != PAPER else (above,):
+            draw_curve(axes, shown[shown.kind == name], name)
+    style.cross_out(above, shown.sigma, shown.alpha, shown.converged == NOT_REACHED)
     for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.2))
     below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"$\alpha$ without drift")
     below.set_xticks(TICKS, [format_number(sigma) for sigma in TICKS])
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
-    return figure, table, caption(table, results)
+    return figure, table, caption(shown, results)
 
 
 if __name__ == "__main__":

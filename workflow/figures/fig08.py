@@ -1,71 +1,56 @@
 """Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between neighbouring sizes,
 which are constant where a power law holds.
 
-The runs have the paper's drive at its spacing 1/N, and a stronger one there and at a fixed spacing (ext. 9); at the latter also with the
-control, in which a fraction of the collisions reverses the momentum of the scatterer. Line: mean field, the kinetic equation of N
-scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and not used.
+Line: mean field, the kinetic equation of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are
+crossed out and not used.
 """
 
 from collections.abc import Sequence
-from itertools import cycle
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, format_number, parameters, rule
+from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
-from workflow.physics.conductivity import drive, gas
 from workflow.physics.growth import local_exponents
 
 BELOW = 0.7  # ratio of a guide to the lowest point
-CURVE = ["curve", "rule", "epsilon"]  # columns that identify a curve
-PAPERS = {"deterministic": "N", "rare": 1}  # γ of the curves at the paper's drive
-LONGER = {"large": "deterministic"}  # runs that continue a curve to longer chains
-GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
-DRIVEN = {"thinning": style.points("^", style.ORANGE, "white"), "dense": style.points("P", style.BLACK)}
-CONTROLS = [
-    style.points("D", style.GREEN, "white"),
-    style.points("D", style.GREEN),
-    style.points("v", style.SKY),
-]
+GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's exponents by gamma
+LOOKS = {str(gamma): look for gamma, look in style.BY_GAMMA.items()}
+KAPPA = ("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
-    """kappa in mean field, one row per size, sorted by N."""
+    """kappa in mean field and its local exponents, one row per size, sorted by N."""
     rows = []
     for result in results:
-        if result.provenance["program"] == "boltzmann":
-            cells, temperature = int(result.parameters["cells"]), result["temperature_scatterer"].mean
-            kappa = -float(result["energy_current"].mean) * cells / (temperature[-1] - temperature[0])
-            row = {"gamma": "N", "cells": cells, "drive": drive(result), "mean_field_kappa": kappa}
-            rows.append(row)
-    return pd.DataFrame(rows).sort_values("cells")
+        cells, temperature = int(result.parameters["cells"]), result["temperature_scatterer"].mean
+        kappa = -float(result["energy_current"].mean) * cells / (temperature[-1] - temperature[0])
+        rows.append({"gamma": setting.gamma(result), "cells": cells, "mean_field_kappa": kappa})
+    table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+    middle, slope, _ = local_exponents(table.cells, table.mean_field_kappa, 0 * table.cells)
+    return table.assign(
+        middle=np.append(middle, np.nan), mean_field_exponent_to_next=np.append(slope, np.nan)
+    )
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N, with the local exponent from every sound size to the next. Neighbouring exponents have a
     size in common."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for result in results:
-        row: dict[str, Any] = {"curve": LONGER.get(gas(result), gas(result)), "rule": rule(result)}
-        row |= {name: result.parameters[name] for name in ("gamma", "cells")}
-        row |= {"spacing": setting.spacing(result)[1], "drive": drive(result), "usable": result.usable}
-        rows.append(
-            row
-            | {"epsilon": setting.epsilon(result)}
-            | result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
-        )
+        row = {"gamma": setting.gamma(result), "cells": int(result.parameters["cells"])}
+        rows.append(row | {"usable": result.usable} | result.columns(*KAPPA))
     table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
     table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
-    for _, part in table[table.usable].groupby(CURVE):
+    for _, part in table[table.usable].groupby("gamma", sort=False):
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
         for column, values in zip(columns, local, strict=True):
             table.loc[part.index[:-1], column] = values
@@ -81,82 +66,54 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     axes.annotate(name, end, (4, 0), textcoords="offset points", size=8, va="center")
 
 
-def compared(table: pd.DataFrame, control: float) -> str:
-    """Exponents at fixed density with and without conserved momentum, between the largest neighbouring sizes that both have."""
-    known = table.dropna(subset="between").set_index(["cells", "between"])
-    exponents = [
-        known[known.curve == "dense"],
-        known[(known.curve == "reversal") & (known.epsilon == control)],
-    ]
-    common = exponents[0].index.intersection(exponents[1].index)
-    if not len(common):
-        return "at no common sizes"
-    cells, between = common.max()
-    elastic, broken = (
-        format_with_error(*rows.loc[(cells, between), ["exponent_to_next", "exponent_to_next_error"]])
-        for rows in exponents
-    )
-    return f"{elastic} and {broken} between N = {cells} and {between**2 / cells:.0f}"
+def ends(table: pd.DataFrame, gamma: str) -> str:
+    """The first and the last local exponent of a gamma."""
+    known = table[table.gamma == gamma].dropna(subset="between")
+    if known.empty:
+        return "not measured"
+    shown = known.iloc[[0, -1]].drop_duplicates("cells")
+    return listed(map(format_with_error, shown.exponent_to_next, shown.exponent_to_next_error))
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    control = table[table.curve == "reversal"].epsilon.min()
     return f"""
-        Conductivity κ = −J_U N/(T_N − T_1) of open chains, {parameters(results, "sigma")}, the paper's baths at λ = 1/N, else T_R/T_L =
-        {format_number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes. At fixed density (λ =
-        {table[table.curve == "dense"].spacing.iloc[0]}), without and with a fraction ε = {format_number(control)} of collisions that break conservation of
-        momentum (reversal), {compared(table, control)}. {ERRORS}"""
+        The paper plots the conductivity κ = −J_U N/(T_N − T_1) and reads N^(1/3) at γ = N and N at γ = 1 ({baths(results[0])}, λ = 1/N,
+        {parameters(results, "sigma")}). Here the first and last exponents (b) are {ends(table, "N")} at γ = N and {ends(table, "1")} at γ = 1. (a) The blue
+        line shows the mean field. {ERRORS}"""
 
 
-@plots("deterministic large rare rare-small reversal mean-field thinning thinning-large dense dense-large")
+@plots("every every-large rare rare-small mean-field")
 def draw(results: Sequence[Result]) -> Parts:
     shown = [result for result in results if result.provenance["program"] == "conductivity"]
-    table, theory = tabulate(shown), mean_field(results)
-    size = (2 * style.COLUMN, 1.2 * style.HEIGHT)
-    figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)
-    controls = cycle(CONTROLS)
-    for (curve, name, epsilon), part in table.groupby(CURVE, sort=False):
-        first = part.iloc[0]
-        if curve in PAPERS:
-            look, label = (
-                style.points(*style.BY_GAMMA[first.gamma]),
-                rf"$\gamma = {PAPERS[curve]}$",
-            )
-            slope, power, text = GUIDES[first.gamma]
-            draw_guide(left, part, slope, power)
-            style.guide_at(right, slope, text)
-        elif name == "elastic":
-            look, label = DRIVEN[curve], rf"$T_R/T_L = {first.drive:g}$, $\lambda = {first.spacing}$"
-        else:
-            look, label = (
-                next(controls),
-                rf"$\lambda = {first.spacing}$, $\epsilon = {format_number(epsilon)}$",
-            )
-        left.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
-        right.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
-    color = style.BY_GAMMA["N"][1]
-    left.plot(
-        theory.cells,
-        theory.mean_field_kappa,
-        color=color,
-        linestyle="dashed",
-        label=r"$\gamma = N$, mean field",
-    )
-    style.guide_at(right, 0, "0")
-    style.cross_out(left, table.cells, table.kappa, ~table.usable)
-    left.set(xscale="log", yscale="log", xlabel="number of cells $N$")
-    left.set_ylabel(rf"conductivity $\kappa$ ({style.UNITS})")
-    right.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
-    low, high = left.get_xlim()
-    left.set_xlim(low, 1.6 * high)  # room for the names of the guides
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    style.letter(left, right)
-    whole = table.drop(columns=["between", "epsilon"]).merge(
-        theory, how="left", on=["gamma", "cells", "drive"]
-    )
+    table = tabulate(shown)
+    theory = mean_field([result for result in results if result.provenance["program"] == "boltzmann"])
+    figure, (above, below) = style.stacked(2, 1.2, height=1.6)
+    for gamma, part in table.groupby("gamma", sort=False):
+        look = style.points(*LOOKS[gamma])
+        slope, power, text = GUIDES[gamma]
+        draw_guide(above, part, slope, power)
+        style.guide_at(below, slope, text)
+        above.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
+        below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
+    line: style.Look = {"color": LOOKS["N"][1], "linestyle": "dashed"}
+    above.plot(theory.cells, theory.mean_field_kappa, label=r"$\gamma = N$, mean field", **line)
+    below.plot(theory.middle, theory.mean_field_exponent_to_next, **line)
+    style.cross_out(above, table.cells, table.kappa, ~table.usable)
+    above.set(xscale="log", yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
+    below.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
+    low, high = above.get_xlim()
+    above.set_xlim(low, 1.6 * high)  # room for the names of the guides
+    handles, labels = above.get_legend_handles_labels()
+    above.legend(handles[::-1], labels[::-1], loc="upper left")
+    whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
     return figure, whole, caption(table, shown)
 
 
 if __name__ == "__main__":
-    units = {"drive": "1", "exponent_to_next": "1", "mean_field_kappa": "energy/(time temperature)"}
-    main(draw, "Heat conductivity against the size of the chain", **units)
+    units = {"exponent_to_next": "1", "mean_field_exponent_to_next": "1"}
+    main(
+        draw,
+        "Heat conductivity against the size of the chain",
+        mean_field_kappa="energy/(time temperature)",
+        **units,
+    )

@@ -13,15 +13,17 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, parameters
+from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, main, plots
+from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
 from workflow.physics.mode_coupling import Chain
-from workflow.physics.pulse import in_order, label, look, look_of, resolved, start
+from workflow.physics.pulse import in_order, label, look, look_of, start
 
 FAINT = 0.45
+SURE = 3  # standard errors above which a change of speed is significant
 
 
 def sound_speed(rest: Result) -> float:
@@ -65,22 +67,33 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
     speed.errorbar(rate.axes["middle"], rate.mean, rate.error, **look_of(result))
 
 
+def motion(result: Result) -> str:
+    """Verb phrase on the speed of the peak: its change if that is significant, else its mean."""
+    speed = result["peak_speed"]
+    known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
+    if not len(known):
+        return "is not resolved"
+    first, last = known[[0, -1]]
+    error = np.hypot(speed.error[first], speed.error[last])
+    if abs(speed.mean[last] - speed.mean[first]) > SURE * error:
+        return f"changes from {style.format_quantity(speed, first)} to {style.format_quantity(speed, last)}"
+    return f"is {format_with_error(*mean_of(speed.mean[known], speed.error[known])[:2])} on average"
+
+
 def caption(results: Sequence[Result]) -> str:
-    rest = results[0]["peak_speed"]
-    ends = (
-        [style.format_quantity(rest, k) for k in resolved(rest.mean)[[0, -1]]]
-        if len(resolved(rest.mean))
-        else []
-    )
-    speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
     closed = any(result["ring_closed"].mean.any() for result in results)
-    faint = " Faint: ring closed." if closed else ""
-    often = results[0].parameters["gamma"] == "N"
-    sound = "; dashed: sound at temperature and density of the ring from rest" if often else ""
-    near = "" if often else "Dips beside the spike: particles that the pulse has driven away."
+    faint = " Faint rings are closed." if closed else ""
+    speed = motion(results[0])
+    if results[0].parameters["gamma"] == "N":
+        peaks, near = "two peaks of almost constant speed", ""
+        sound = " (d) The dashed line is sound in the ring from rest."
+    else:
+        peaks, sound = "peaks of constant speed", " (d) Speeds refer to intervals."
+        near = " In the dips, particles are missing."
     return f"""
-        Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {parameters(results, *CHAIN)}, {parameters(results, "particles-per-cell", "pulse-energy")}.
-        {near}{faint} (c) Position of the moving peak; dashed: initial speed. (d) Its speed{sound}. From rest it {speed}. {ERRORS}"""
+        The paper plots the effect ΔE(x, t) of an energy pulse and finds {peaks} ({parameters(results, "cells", "sigma", "particles-per-cell")}).
+        Here, from rest, the speed in cells per time {speed}. (a), (b) Both starts are shown.{near}{faint} (c) Dashed lines continue the
+        first speed.{sound} {ERRORS}"""
 
 
 @plots("rest gaussian")
@@ -102,7 +115,7 @@ def draw(results: Sequence[Result]) -> Parts:
         tables.append(draw_profiles(panels[result.run], result, shown))
         draw_motion(position, speed, result)
     if results[0].parameters["gamma"] == "N":
-        style.guide_at(speed, sound_speed(results[0]), "sound")
+        style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
     name = rf"$\gamma = {setting.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")

@@ -1,7 +1,7 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later times and, at gamma = N, of other
-energies. Times without a moving peak, whose height is NaN, are left out.
+Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later times and, at gamma = N, of ten
+times the energy. Times without a moving peak, whose height is NaN, are left out.
 """
 
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, parameters
+from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, main
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -80,24 +80,32 @@ def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame)
     above.set_xlim(low, 1.35 * high)  # room for the names of the guides
 
 
-def octaves(result: Result) -> str:
-    """Exponents of the octaves with a moving peak."""
+def exponents(result: Result) -> str:
+    """Verb phrase on the exponents of the first and the last octave with a moving peak."""
     found = by_octave(result).dropna()
-    pairs = zip(found.octave_exponent, found.octave_exponent_error, strict=True)
-    return listed(format_with_error(*pair) for pair in pairs) if len(found) else "not resolved"
+    texts = [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
+    if len(texts) > 1:
+        return f"goes from {texts[0]} to {texts[-1]}"
+    return f"is {texts[0]}" if texts else "is not resolved"
 
 
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]
     if rest.parameters["gamma"] == "N":
-        law = (
-            f"Dashed: the paper's 2/3, damping of sound, and 1/2, a shock. Octaves from rest: {octaves(rest)}"
-        )
+        law, guides = "t^(−2/3)", "Dashed lines show 2/3 (sound) and 1/2 (shock)."
     else:
-        law = f"Dashed: the paper's 1. Octaves from rest: {octaves(rest)}"
+        law, guides = "t^(−1)", "The dashed line shows 1."
+    pulse = rest.parameters["pulse-energy"]
+    alike = [result for result in results if result.parameters["pulse-energy"] == pulse]
+    long = max(alike, key=lambda result: result.parameters["cells"])
+    longer = (
+        f"; that of the Gaussian start in {long.parameters['cells']} cells {exponents(long)}"
+        if long is not rest
+        else ""
+    )
     return f"""
-        Damping of the moving peak of an energy pulse, {parameters([rest], "cells", "sigma", "gamma")}, {parameters([rest], "particles-per-cell")}. (a) Height of the peak, from a
-        smooth fit above half of it. (b) Exponents over octaves of time. {law}. {ERRORS}"""
+        The paper plots the height of the peak and reads {law} ({parameters([rest], "cells", "sigma", "particles-per-cell")}). Here the exponent from rest
+        {exponents(rest)}{longer}. (a) Heights are those of smooth fits. (b) Exponents are those of octaves. {guides} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -127,9 +127,10 @@ def draw(_: Sequence[Result]) -> Parts:
     baths(panels[1], energies)
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
-    caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain, N = {CELLS}, σ = {format_number(SIGMA)}, γ = N.
-        A particle flies past all others to the next scatterer (grey), fixed in place, and the two exchange energy and momentum. Colour: energy of the particle. (a) A ring, joined at the dashed ends. (b) Baths inject particles and absorb those that
-        reach them; colour: temperature."""
+    caption = f"""
+        The paper defines this model, simulated here with N = {CELLS} cells, σ = {format_number(SIGMA)} and γ = N. A particle flies past all others to the
+        next scatterer (grey), which is fixed in place, and the two exchange energy and momentum. Colours show energies. (a) The ring, joined at the
+        dashed ends, holds {CELLS * PER_CELL} particles. (b) Baths, coloured by temperature, inject particles and absorb those that reach them."""
     return figure, table, caption
 
 

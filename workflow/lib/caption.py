@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from workflow.lib.load import NOT_STATIONARY, Result
+from workflow.lib.load import NOT_STATIONARY, NOT_TESTED, Result
 
 SYMBOLS = {
     "cells": "N = {}",
@@ -29,7 +29,8 @@ PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 BASE = 10
 FEW = 3  # runs that are named one by one
-ERRORS = "Bars: standard errors."
+DOUBTS = {NOT_STATIONARY: "Not stationary", NOT_TESTED: "With too few replicas to test whether stationary"}
+ERRORS = "Bars show standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -84,13 +85,13 @@ def with_rules(caption: str, results: Sequence[Result]) -> str:
 
 
 def with_doubts(caption: str, results: Sequence[Result]) -> str:
-    """The caption, with a sentence on results whose window was not stationary. Panels with a point for each also cross them out."""
-    drifting = [result.run for result in results if NOT_STATIONARY in result.doubts]
-    if not drifting:
-        return caption
-    return (
-        f"{caption} Not stationary: {listed(drifting) if len(drifting) <= FEW else f'{len(drifting)} runs'}."
-    )
+    """The caption, with a sentence on results that are not stationary, and one on those that were not tested. Panels with a point for each
+    also cross them out."""
+    for doubt, text in DOUBTS.items():
+        runs = [result.run for result in results if doubt in result.doubts]
+        if runs:
+            caption += f" {text}: {listed(runs) if len(runs) <= FEW else f'{len(runs)} runs'}."
+    return caption
 
 
 def baths(result: Result) -> str:

@@ -147,7 +147,7 @@ def main(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: st
         sys.exit(str(error))
     shown = draw.shown(results) if isinstance(draw, Plot) else results
     own = [result for result in shown if result.path.parent.name == panel] or shown
-    whole = with_doubts(with_rules(" ".join(caption.split()), own), own)
+    whole = with_doubts(with_rules(" ".join(caption.split()), own), shown)
     text = Text(title if isinstance(title, str) else title(shown), whole)
     save(figure, saved, options.output, text, Parents(name, options.data, sources))
 

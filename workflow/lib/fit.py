@@ -56,14 +56,18 @@ def rejected(chi_square: float, freedom: int) -> bool:
     return p_value(chi_square, freedom) < LEVEL
 
 
-def format_with_error(value: float, error: float) -> str:
-    """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above."""
+def format_with_error(value: float, error: float, systematic: float = 0) -> str:
+    """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above; `unknown` for NaN.
+    The bound on the systematic error follows in its own brackets, unless it is below the last digit: 0.299(8)(52)."""
+    if np.isnan(value):
+        return "unknown"
     if not (np.isfinite(error) and error > 0):
         return f"{value:.4g}".replace("-", "−")
     error = float(f"{error:.1e}")
     digits = max(0, 1 - int(np.floor(np.log10(error))))
-    shown = f"{error:.{digits}f}" if error >= 1 else f"{round(error * 10**digits)}"
-    return f"{value:.{digits}f}({shown})".replace("-", "−")
+    errors = [error] if round(systematic * 10**digits) == 0 else [error, systematic]
+    brackets = (f"{one:.{digits}f}" if error >= 1 else f"{round(one * 10**digits)}" for one in errors)
+    return "".join([f"{value:.{digits}f}", *(f"({shown})" for shown in brackets)]).replace("-", "−")
 
 
 def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:

@@ -153,7 +153,11 @@ class Result:
         import xarray  # noqa: PLC0415
 
         datasets = {name: quantity.to_xarray() for name, quantity in self.quantities.items()}
-        attributes = self.parameters | {"converged": self.converged, "doubts": ", ".join(self.doubts)}
+        parameters = {
+            name: int(value) if isinstance(value, np.bool_ | bool) else value
+            for name, value in self.parameters.items()
+        }  # netCDF has no bool
+        attributes = parameters | {"converged": self.converged, "doubts": ", ".join(self.doubts)}
         return xarray.DataTree.from_dict({"/": xarray.Dataset(attrs=attributes), **datasets})
 
     @property

@@ -19,7 +19,6 @@ from matplotlib.figure import Figure
 
 from workflow.lib.files import write_together
 from workflow.lib.identity import ROOT, sha256, statement
-from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
 RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
@@ -96,11 +95,4 @@ def renderer() -> str:
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, metadata=metadata)
-    return _with_fallbacks(buffer.getvalue()) if kind == "svg" else buffer.getvalue()
-
-
-def _with_fallbacks(picture: bytes) -> bytes:
-    """Adds the fallback fonts to formulas, where matplotlib names only one."""
-    first, *fallbacks = (name if name == "serif" else f"'{name}'" for name in FONTS)
-    only = f"font-family: {first}"
-    return picture.replace(f'{only}"'.encode(), f'{", ".join([only, *fallbacks])}"'.encode())
+    return buffer.getvalue()

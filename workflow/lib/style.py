@@ -34,6 +34,7 @@ ORANGE = "#E69F00"
 GREEN = "#009E73"
 VERMILLION = "#D55E00"
 SKY = "#56B4E9"
+PURPLE = "#CC79A7"
 
 # Colours and dashes for an ordered set of curves, with increasing lightness and increasing gaps.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
@@ -55,12 +56,9 @@ POINTS: Look = {
     "markeredgewidth": 0.8,
 }
 
-# The first is used here; the others are fallbacks of SVG viewers.
-FONTS = ("STIXGeneral", "STIX Two Text", "Times New Roman", "serif")
-
 _SETTINGS: dict[RcKeyType, Any] = {
     "font.family": "serif",
-    "font.serif": list(FONTS),
+    "font.serif": ["STIXGeneral"],
     "font.size": 9,
     "mathtext.fontset": "stix",
     "axes.linewidth": 0.6,
@@ -83,7 +81,7 @@ _SETTINGS: dict[RcKeyType, Any] = {
     "figure.constrained_layout.use": True,
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
-    "svg.fonttype": "none",
+    "svg.fonttype": "path",  # browsers have no STIX
     "svg.hashsalt": "lorentz-gas",
 }
 
@@ -127,9 +125,9 @@ def letter(*panels: Axes, lift: float | None = None, first: int = 0) -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
-def guide_at(axes: Axes, value: float, name: str) -> None:
-    """Horizontal guide, labelled on the right of the frame."""
-    axes.axhline(value, **GUIDE)
+def guide_at(axes: Axes, value: float, name: str, **look: Any) -> None:
+    """Horizontal guide, labelled on the right of the frame. look: what differs from GUIDE."""
+    axes.axhline(value, **GUIDE | look)
     axes.annotate(name, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
 
 

@@ -11,7 +11,7 @@ from workflow.physics import setting
 
 LOOKS = {
     "thinning": ("o", style.BLACK),
-    "dilute": ("s", style.VERMILLION),
+    "dilute": ("s", style.SKY),
     "dense": ("^", style.BLUE),
 }  # marker and colour by gas
 
@@ -31,23 +31,14 @@ def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:
     return table.assign(gas=table.gas.map(spacing)).rename(columns={"gas": "spacing"})
 
 
-def drop_per_cell(result: Result) -> float:
-    """Drop of the temperature per cell, from the left bath to the right one."""
-    left, right = result.ends("temperature")
-    return (left - right) / int(result.parameters["cells"])
-
-
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
+    """One row per run, sorted by N."""
     rows = []
     for result in results:
         row: dict[str, Any] = {"gas": gas(result), "cells": int(result.parameters["cells"])}
-        row |= result.columns("kappa", "kappa_particle", "energy_current", "particle_current")
-        per_current = 1 / drop_per_cell(result)
-        row["kappa_baths"] = per_current * row["energy_current"]
-        row["kappa_baths_error"] = abs(per_current) * row["energy_current_error"]
-        row["usable"] = result.usable
-        rows.append(row)
+        rows.append(
+            row | result.columns("kappa", "energy_current", "particle_current") | {"usable": result.usable}
+        )
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 

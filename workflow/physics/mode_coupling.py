@@ -81,21 +81,9 @@ class Chain:
     @property
     def heat_amplitude(self) -> float:
         """A [eqs. M25, M26], where <J_q(t) J_q(0)> per length is T² A t^(-2/3)."""
-        return 8 / 9 * SECOND_MOMENT * self._amplitude_scale
-
-    def gaussian_heat_correlation(self, square: ArrayLike) -> np.ndarray:
-        """<J_q(t) J_q(0)> per length and T² if φ+ were Gaussian [eq. M27b, denominator], from the integral of the square of a
-        sound peak of unit area at t."""
-        return self._heat_scale * np.asarray(square, dtype=float)
-
-    @property
-    def _amplitude_scale(self) -> float:
-        return self._heat_scale * self.self_coupling ** (-2 / 3)
-
-    @property
-    def _heat_scale(self) -> float:
         hot = self.fugacity / (self.fugacity + self._release)
-        return float((hot * self.sound_speed) ** 2)
+        scale = (hot * self.sound_speed) ** 2 * self.self_coupling ** (-2 / 3)
+        return float(8 / 9 * SECOND_MOMENT * scale)
 
     @property
     def peak_area(self) -> float:
@@ -107,10 +95,6 @@ class Chain:
         width = (self.self_coupling * time) ** (2 / 3)
         offset = (np.asarray(x, dtype=float) - self.sound_speed * time) / width
         return self.peak_area * f_kpz(offset) / width
-
-    def heat_variance(self, time: ArrayLike) -> np.ndarray:
-        """<Q(t)²> per length [eq. M28] without normal diffusion."""
-        return 4.5 * self.temperature**2 * self.heat_amplitude * np.asarray(time, dtype=float) ** (4 / 3)
 
     @property
     def heat_susceptibility(self) -> float:

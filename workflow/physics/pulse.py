@@ -13,7 +13,6 @@ LOOKS = {
     "gaussian": ("o", style.BLUE, style.BLUE, "Gaussian start"),
     "long": ("^", style.SKY, style.SKY, "Gaussian, longer ring"),
     "strong": ("D", style.ORANGE, "white", "ten times the energy"),
-    "weak": ("v", style.GREEN, "white", "a tenth of the energy"),
 }
 
 

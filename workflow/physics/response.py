@@ -1,7 +1,8 @@
 """Linear response of the currents of energy and particles, and the heat conductivity without a particle current.
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
-half-Gaussian baths [eq. 56]. The heat conductivity without a current of particles is κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
+half-Gaussian baths [eq. 56]. Both differences together that make J_n = 0 give κ_0 = -J_u N/(T_N - T_1), with the temperatures of the
+end scatterers as everywhere. Over the temperatures of the baths it is (L_uu - L_un L_nu/L_nn)/T^2, smaller by the resistance of the contacts.
 Sound leaves the chain after the time t = τN/c, where c is the speed of sound in cells per time. κ_0 is that of a ring of the same gas
 up to this time:
 κ_0 = (√T/λ) ½ d(<Q²>/N)/dt, <Q²> measured in the units of T and λ [mode_coupling.md, eq. M34].
@@ -21,8 +22,16 @@ from workflow.physics.conductivity import gas
 from workflow.physics.rings import chain
 
 DENSE = "dense"  # name of the gas at a fixed spacing
-DERIVED = ("L_uu", "L_un", "L_nu", "L_nn", "kappa_0", "asymmetry")  # numbers calculated from the currents
-STEP = 1e-6  # of numerical derivatives, relative to the currents
+DERIVED = (
+    "L_uu",
+    "L_un",
+    "L_nu",
+    "L_nn",
+    "kappa_0",
+    "kappa_0_baths",
+    "asymmetry",
+)  # numbers calculated from what is measured
+STEP = 1e-6  # of numerical derivatives, relative to what is measured
 
 
 class Mean(NamedTuple):
@@ -34,12 +43,12 @@ class Mean(NamedTuple):
 
 @dataclass(frozen=True)
 class Response:
-    """Currents of a run and the forces that drive them."""
+    """Currents of a run, its difference of temperature, and the forces that drive them."""
 
     cells: int
     forces: np.ndarray  # X_u, X_n
-    currents: np.ndarray  # J_u, J_n
-    covariance: np.ndarray
+    measured: np.ndarray  # J_u, J_n, T_N - T_1
+    covariance: np.ndarray  # of the three
     temperature: float  # geometric mean of the temperatures of the baths
     usable: bool
 
@@ -47,46 +56,48 @@ class Response:
     def of(cls, result: Result) -> "Response":
         rates, temperatures = (np.array(result.ends(name)) for name in ("nu", "temperature"))
         potentials = np.log(rates / np.sqrt(temperatures))
-        quantities = [result[name] for name in ("energy_current", "particle_current")]
-        errors = np.array([float(quantity.error) for quantity in quantities])
-        correlation = float(result["current_correlation"].mean)
+        names = ("energy_current", "particle_current", "temperature_first", "temperature_last")
+        means, errors = (
+            np.array([float(getattr(result[name], part)) for name in names]) for part in ("mean", "error")
+        )
+        of_rise = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 1]])
+        covariance = of_rise @ (np.outer(errors, errors) * result["correlation"].mean) @ of_rise.T
         return cls(
             int(result.parameters["cells"]),
             np.array([np.diff(1 / temperatures)[0], -np.diff(potentials)[0]]),
-            np.array([float(quantity.mean) for quantity in quantities]),
-            np.outer(errors, errors) * np.array([[1, correlation], [correlation, 1]]),
+            of_rise @ means,
+            covariance,
             float(np.sqrt(np.prod(temperatures))),
             result.usable,
         )
 
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
-    """Matrix L from two runs, and kappa = -J_u N/(T_R - T_L) of the first. temperature: run with a temperature difference at equal
+    """Matrix L and conductivities without a particle current from two runs. temperature: run with a temperature difference at equal
     pressure; pressure: run with a pressure difference at equal temperature. Errors are those of linear propagation."""
-    runs = (temperature, pressure)
-    inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
+    runs, cells = (temperature, pressure), temperature.cells
+    inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * cells
+    difference_of_baths = -temperature.forces[0] * temperature.temperature**2
 
-    def derived(currents: np.ndarray) -> np.ndarray:
-        matrix = currents @ inverse
-        heat = matrix[0, 0] - matrix[0, 1] * matrix[1, 0] / matrix[1, 1]
-        return np.array([*matrix.flat, heat / pressure.temperature**2, matrix[0, 1] - matrix[1, 0]])
+    def derived(measured: np.ndarray) -> np.ndarray:
+        matrix = measured[:2] @ inverse
+        heat, _, rise = measured @ [1, -measured[1, 0] / measured[1, 1]]  # both runs added such that J_n = 0
+        conductivities = [-cells * heat / rise, -cells * heat / difference_of_baths]
+        return np.array([*matrix.flat, *conductivities, matrix[0, 1] - matrix[1, 0]])
 
-    currents = np.stack([run.currents for run in runs], axis=1)
-    values, variances = derived(currents), np.zeros(len(DERIVED))
+    measured = np.stack([run.measured for run in runs], axis=1)
+    values, variances = derived(measured), np.zeros(len(DERIVED))
     for index, run in enumerate(runs):
-        gradient = np.zeros((2, len(DERIVED)))
-        for current, step in enumerate(STEP * np.abs(currents).max(axis=1)):
-            shift = np.zeros((2, 2))
-            shift[current, index] = step
-            gradient[current] = (derived(currents + shift) - derived(currents - shift)) / (2 * step)
+        gradient = np.zeros((len(measured), len(DERIVED)))
+        for row, step in enumerate(STEP * np.abs(measured).max(axis=1)):
+            shift = np.zeros_like(measured)
+            shift[row, index] = step
+            gradient[row] = (derived(measured + shift) - derived(measured - shift)) / (2 * step)
         variances += np.einsum("iq,ij,jq->q", gradient, run.covariance, gradient)
-    row: dict[str, float] = {"usable": all(run.usable for run in runs)}
+    table: dict[str, float] = {"usable": all(run.usable for run in runs)}
     for name, value, variance in zip(DERIVED, values, variances, strict=True):
-        row |= {name: float(value), f"{name}_error": float(np.sqrt(variance))}
-    per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)
-    row["kappa"] = per_current * temperature.currents[0]
-    row["kappa_error"] = abs(per_current) * np.sqrt(temperature.covariance[0, 0])
-    return row
+        table |= {name: float(value), f"{name}_error": float(np.sqrt(variance))}
+    return table
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -163,7 +174,7 @@ def fugacity(result: Result) -> float:
 
 
 def nearest_of(value: float, given: Iterable[float]) -> float:
-    """The given value with the smallest relative distance from `value`, as ζ of the rings of ext. 13 is rounded to 1.6."""
+    """The given value with the smallest relative distance from `value`, as ζ of the rings of `momentum` is rounded to 1.6."""
     return min(given, key=lambda candidate: abs(candidate / value - 1))
 
 

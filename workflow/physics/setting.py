@@ -25,6 +25,12 @@ def epsilon(result: Result) -> float:
     return float(result.parameters["reversal-probability"]) if reversing else 0.0
 
 
+def passing(result: Result) -> float:
+    """Probability that a particle passes a scatterer, 1 - γ/N."""
+    value = result.parameters["gamma"]
+    return 0.0 if value == "N" else round(1 - float(value) / int(result.parameters["cells"]), 9)
+
+
 def spacing(result: Result) -> tuple[float, str]:
     """Distance between scatterers as a number and as text."""
     given = result.parameters["cell-length"]

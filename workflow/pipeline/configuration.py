@@ -140,6 +140,7 @@ def _panels(programs: dict[str, Schema]) -> Schema:
             "program": program,
             "script": NAME,
             "uses": NAMES,
+            "beyond": {"type": "boolean", "allowed": "true or false"},
             "reads": NAMES,
             "common": {"type": "object"},
             "series": NAMED | {"additionalProperties": series},

@@ -43,6 +43,7 @@ REPORT_SOURCES = (
     "workflow/report",
     "workflow/pipeline",
     "data/claims.csv",
+    "docs/gallery/numbers.csv",  # of the release, where there is one
     *SHARED,
 )
 OVERRIDES: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
@@ -80,7 +81,8 @@ class Run:
 @dataclass(frozen=True)
 class Panel:
     """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of paper.yaml that the quality
-    replaces, as `cells of rare`; reads: files that the script reads."""
+    replaces, as `cells of rare`; reads: files that the script reads; beyond: whether it goes
+    beyond the paper, and is made for the report only."""
 
     name: str
     script: str
@@ -88,6 +90,7 @@ class Panel:
     uses: tuple[str, ...] = ()
     replaced: tuple[str, ...] = ()
     reads: tuple[str, ...] = ()
+    beyond: bool = False
 
     def run(self, name: str) -> Run:
         return next(run for run in self.runs if run.name == name)
@@ -169,8 +172,9 @@ def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
                 text = f"{used} has no runs; {suggestion(used, {*panels} - {panel.name, used})}"
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "uses", number), text))
         for number, path in enumerate(panel.reads):
-            if not (ROOT / path).is_file() or ".." in Path(path).parts:
-                text = f"{path} is not a file below {ROOT}: write it there"
+            inside = not Path(path).is_absolute() and ".." not in Path(path).parts
+            if not inside or not (ROOT / path).is_file():
+                text = f"{path} is not a file below {ROOT}: write it there, and here its path from there"
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "reads", number), text))
     return panels
 
@@ -179,6 +183,11 @@ def require_panel(name: str, known: Collection[str]) -> None:
     """Raises ConfigurationError with the most similar of the known names."""
     if name not in known:
         raise ConfigurationError(f"{name} is not a panel; {suggestion(name, known)}")
+
+
+def default_panels(plan: dict[str, Panel]) -> list[str]:
+    """Panels of `make figures`: the paper's, `accuracy` and `stability`."""
+    return [name for name, panel in plan.items() if not panel.beyond]
 
 
 def panel_named(plan: dict[str, Panel], name: str) -> Panel:
@@ -228,7 +237,7 @@ def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> l
 
 def report_stem(plan: dict[str, Panel], quality: str) -> str:
     """Path of the report in the store, without suffix. Raises OSError."""
-    sources = {path: content_hash(path) for path in REPORT_SOURCES}
+    sources = {path: content_hash(path) for path in REPORT_SOURCES if (ROOT / path).exists()}
     present = identity([stem_of(plan, name, quality) for name in plan], sources)
     return RENDERING.format(quality=quality, panel="report", identity=present)
 
@@ -275,7 +284,8 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             completed = selection.complete(name, run, given, scale) if replicated else given
             runs.append(Run(run, program, completed, series))
     uses, reads = (tuple(panel.get(key, ())) for key in ("uses", "reads"))
-    return Panel(name, panel.get("script", name), tuple(runs), uses, tuple(replaced), reads)
+    beyond = panel.get("beyond", False)
+    return Panel(name, panel.get("script", name), tuple(runs), uses, tuple(replaced), reads, beyond)
 
 
 def _in_name(value: object) -> str:

@@ -31,7 +31,7 @@ def acceptance(band: Band) -> str:
 
 
 def value(number: Estimate) -> str:
-    """Number with its standard error in units of the last digit, and the bound on its systematic error."""
+    """Number with its standard error and the bound on its systematic error in units of the last digit; ± the bound without a standard error."""
     if not number.error and abs(number.value) < number.systematic:
         return f"0 to rounding{BOUND}{short(number.systematic)}"
     size = max(abs(number.value), number.error, number.systematic)
@@ -41,8 +41,9 @@ def value(number: Estimate) -> str:
         return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
     if math.isnan(number.error):
         return f"{number.value:.4g} (error unknown)".replace("-", MINUS)
-    bound = f"{BOUND}{short(number.systematic)}" if number.systematic > 0.05 * number.error else ""
-    return f"{format_with_error(number.value, number.error)}{bound}"
+    if not number.error:
+        return f"{format_with_error(number.value, 0)}{BOUND}{short(number.systematic)}"
+    return format_with_error(number.value, number.error, number.systematic)
 
 
 def short(size: float) -> str:

@@ -5,9 +5,11 @@ beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
 import argparse
 import base64
 import io
-import re
+import json
+import math
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +19,13 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from workflow.claims.data import Data
-from workflow.claims.judge import KINDS, Judgement, judge_all
+from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.files import in_one_line, write_together
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import Selection, stem_of
+from workflow.pipeline.plan import Selection, runs_of, stem_of
 from workflow.pipeline.publish import read_record
 from workflow.report import typeset
 
@@ -44,15 +46,12 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
         keep_trailing_newline=True,
     )
     environment.filters["typeset"] = typeset.typeset
+    found = {} if release else of_release(data.root)
     rows = [shown(judgement) for judgement in judgements]
-    panels = []
-    for name in data.plan:
-        stem = data.root / stem_of(data.plan, name, data.quality)
-        picture = Path(f"{stem}.svg").read_bytes()
-        width = re.search(rb'<svg [^>]*width="([0-9.]+)pt"', picture)
-        address = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"
-        own = {"address": f"{name}.png" if release else address, "width": width[1].decode() if width else "0"}
-        panels.append(read_record(f"{stem}.json") | own | {"name": name})
+    outcomes = {(row["numbers"], row["kind"]): row["outcome"] for row in rows}
+    for row in rows:
+        row["holds_as_intended"] = outcomes.get((row["numbers"], "intended")) == "reproduced"
+        row["release"] = found.get((row["numbers"], row["kind"])) if row["outcome"] == "undecided" else None
     page = environment.get_template("page.html.j2").render(
         release=release,
         quality=data.quality,
@@ -61,9 +60,53 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
         outcomes=[*Outcome],
         rows=rows,
         row={f"{row['numbers']} {row['kind']}": row for row in rows},
-        panels=panels,
+        panels=[panel_of(data, name, release=release) for name in data.plan],
+        with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
     return page.encode()
+
+
+def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
+    """A panel with its picture, and what it is made from, for the template. Raises OSError."""
+    stem = data.root / stem_of(data.plan, name, data.quality)
+    record = read_record(f"{stem}.json")
+    picture = base64.b64encode(Path(f"{stem}.svg").read_bytes()).decode()
+    runs = {} if release else runs_of(data.plan, [name], data.quality)
+    return record | {
+        "name": name,
+        "beyond": data.plan[name].beyond,
+        "address": f"{name}.png" if release else f"data:image/svg+xml;base64,{picture}",
+        "runs": [
+            (Path(path).parent.name, f"{run.program} {run.options_text}", cpu_seconds(data.root / path))
+            for path, run in runs.items()
+        ],
+        "sources": [path for path in record["parents"] if not path.endswith(".h5")],
+    }
+
+
+def cpu_seconds(result: Path) -> str:
+    """CPU time of a result, empty if it is not known."""
+    with suppress(OSError, ValueError, KeyError):
+        return f"{json.loads(result.with_suffix('.cost.json').read_text())['cpu_seconds']:.2g} s"
+    return ""
+
+
+def of_release(root: Path) -> dict[tuple[str, str], str]:
+    """Verdict of the release on every claim, with the smallest and the largest number, by claim and kind; empty without a release."""
+    try:
+        table = pd.read_csv(root / GALLERY / "numbers.csv").fillna({"error": math.nan})
+        found = {}
+        for (claim, kind), part in table.groupby(["claim", "kind"], sort=False):
+            low, high = (
+                typeset.value(Estimate("", line.value, line.error, systematic=line.systematic))
+                for line in part.sort_values("value").iloc[[0, -1]].itertuples()
+            )
+            found[str(claim), str(kind)] = (
+                f"{part.claim_verdict.iloc[0]}, {low if len(part) == 1 else f'{low} to {high}'}"
+            )
+    except (OSError, KeyError, AttributeError):
+        return {}
+    return found
 
 
 def shown(judgement: Judgement) -> dict[str, Any]:
@@ -80,15 +123,10 @@ def shown(judgement: Judgement) -> dict[str, Any]:
         "list": [(number.label, typeset.value(number), verdict.of(number).value) for number in listed],
         "omitted": len(numbers) - len(listed),
         "outside": sum(verdict.of(number) is Outcome.CONTRADICTED for number in numbers),
-        "least": plain(numbers[0]) if numbers else "",
-        "most": plain(numbers[-1]) if numbers else "",
+        "least": typeset.value(numbers[0]) if numbers else "",
+        "most": typeset.value(numbers[-1]) if numbers else "",
         "missing": judgement.missing,
     }
-
-
-def plain(number: Estimate) -> str:
-    """The number with its standard error only, for sentences."""
-    return typeset.value(Estimate("", number.value, number.error))
 
 
 def numbers_file(judgements: Sequence[Judgement]) -> bytes:
@@ -97,11 +135,12 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
         {
             "claim": judgement.row["numbers"],
             "kind": judgement.row["kind"],
-            "verdict": judgement.verdict.outcome.value,
+            "claim_verdict": judgement.verdict.outcome.value,
             "quantity": number.label,
             "value": number.value,
             "error": number.error,
             "systematic": number.systematic,
+            "number_verdict": judgement.verdict.of(number).value,
         }
         for judgement in judgements
         for number in judgement.verdict.numbers

@@ -89,7 +89,7 @@ def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, 
 
 def main(options: argparse.Namespace) -> int:
     """Compares the results of a command with SEED or REPLICAS."""
-    selection, found = Selection.of(options.quality), []
+    selection, found, excluded = Selection.of(options.quality), [], []
     plan = load_plan(selection.quality)
     for path, run in runs_of(options.plan, options.panels or options.plan, selection.name).items():
         panel = Path(path).parent.name
@@ -98,9 +98,12 @@ def main(options: argparse.Namespace) -> int:
             try:
                 found.append((*compared(former, path, rerun=False), path))
             except FormatError as error:
-                print(f"Not compared: {error}")
+                excluded.append(str(error))
+    if excluded:
+        print(f"Not compared: {excluded[0]}" + (f"; {len(excluded) - 1} more" if excluded[1:] else ""))
     if not found:
-        print(f"There are no results of {selection.quality} to compare with")
+        if not excluded:
+            print(f"There are no results of {selection.quality} to compare with")
         return 0
     differing = [f"  {path}: {text}" for p, text, path in found if p <= SIGNIFICANCE]
     agreeing = len(found) - len(differing)

@@ -50,7 +50,8 @@ def main(options: argparse.Namespace) -> None:
         sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")
     if faults := check(plan, [*plan], quality, render=False):
         first = faults[0]
-        sys.exit(f"{first.path} is {first.state}: {first.reason}; run make figures {options.effort}")
+        remedy = f"; run make report {options.effort}" if first.state in ("missing", "stale") else ""
+        sys.exit(f"{first.path} is {first.state}: {first.reason}{remedy}")
     results = runs_of(plan, plan, quality)
     costs = [cost for path in results if os.path.exists(cost := path.replace(".h5", ".cost.json"))]
     paths = {*git("ls-files"), *results, *costs, *(path for panel in plan.values() for path in panel.reads)}

@@ -1,10 +1,12 @@
 """Removes the results and figures of a quality that no plan names; DRY=yes lists them.
 
-Only files whose names this project gives are removed: NAME.IDENTITY.* in data and in the store, and figures of former panels.
+Only files whose names this project gives are removed: NAME.IDENTITY.* in data and in the store, and figures of former panels. Tracked
+files, the results of the release, stay.
 """
 
 import argparse
 import re
+import subprocess
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -32,10 +34,18 @@ def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
             yield path
 
 
+def tracked() -> set[str]:
+    """Results in git; none in a copy without it."""
+    listed = subprocess.run(
+        ["git", "ls-files", "data"], capture_output=True, text=True, check=False
+    )  # that of a folder around this one has other paths
+    return {*listed.stdout.splitlines()}
+
+
 def main(options: argparse.Namespace) -> None:
     if not options.dry:
         lock_products()
-    files = sorted(obsolete(options.quality, options.plan))
+    files = sorted({*obsolete(options.quality, options.plan)} - {*map(Path, tracked())})
     size = sum(path.stat().st_size for path in files) / 1e6
     for path in files:
         print(path)

@@ -1,8 +1,8 @@
-"""Ext. 3: sound and heat peaks of rings in equilibrium, against mode coupling without a fitted parameter.
+"""Sound and heat peaks of rings in equilibrium, against mode coupling without a fitted parameter, and the growth of the heat that passes.
 
 C_g, the covariance of the momenta of two cells, has the sound peaks [mode_coupling.md, eq. M19]; that of E_s - theta E_p, the
 energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29]. A stable law is fitted to it
-(workflow/physics/peaks.py).
+(workflow/physics/peaks.py). Q is the heat current, summed over the cells of a ring and integrated over t [eqs. M21 and M28].
 """
 
 from collections.abc import Callable, Sequence
@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import format_number
+from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -30,16 +30,19 @@ from workflow.physics.peaks import (
     stable_law,
     stable_laws,
 )
-from workflow.physics.rings import LOOKS, chain
+from workflow.physics.rings import chain, look_of
+from workflow.physics.rings import tabulate as tabulate_heat
 
 FIRST = 16  # first time that is used, in λ/√T: earlier peaks are as narrow as a cell
 HALF_WIDTH = 0.880466  # of f_KPZ at half of its maximum
-UNSURE = 0.1  # error of the height of a sound peak, over the theory, from which on it is not shown
+UNSURE = 0.1  # error of the height of a sound peak, over the theory, and of an exponent, from which on it is not shown
+SETTLED = 64  # first time, in λ/√T, of the heights that the caption compares with the theory
 REACH = 3  # largest scaled distance that is plotted, of sound peaks
 HEAT_REACH = 4  # largest scaled distance that is plotted, of heat peaks
 FITTED = ("stable_width_ratio", "stable_area_ratio", "stable_order", "order_off_centre")  # columns
 WIDE = 3  # cells; narrower heat peaks are not fitted
 BESIDE = 1.06  # ratio of the times of the symbols of both fits, so that they do not overlap
+HEAT_MARKERS = "os^"  # by time
 BIN = 0.2  # width in scaled distance of the bins over which profiles are averaged
 
 
@@ -115,7 +118,8 @@ def draw_sound(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
     y = np.linspace(-REACH, REACH, 400)
     axes.plot(y, f_kpz(y), color=style.BLACK, label=r"$f_{\mathrm{KPZ}}$")
     parts = []
-    for record, color, dashes in zip(shown, style.SEQUENCE[1:], style.DASHES[1:], strict=False):
+    for record, dashes in zip(shown, style.DASHES[1:], strict=False):
+        _, color = look_of(record.gas.zeta, record.gas.mass)
         part = scaled_sound(record)
         axes.plot(part.x, part.y, color=color, linestyle=dashes, label=f"$t = {record.time:g}$")
         style.band(axes, part.x, part.y, part.y_error, color)
@@ -135,7 +139,8 @@ def draw_heat(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
     axes.plot(y, levy(y), color=style.BLACK, label="order 5/3, theory")
     axes.plot(y, diffusive(shown[-1], y), color="0.4", linestyle=style.DASHES[3], label="order 2, fitted")
     parts = []
-    for record, (marker, color) in zip(shown, LOOKS, strict=False):
+    for record, marker in zip(shown, HEAT_MARKERS, strict=False):
+        _, color = look_of(record.gas.zeta, record.gas.mass)
         part = scaled_heat(record)
         axes.errorbar(
             part.x, part.y, part.y_error, **style.points(marker, color), label=f"$t = {record.time:g}$"
@@ -147,7 +152,7 @@ def draw_heat(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
         yscale="log",
         ylim=(2e-3, 1),
     )
-    axes.legend(loc="upper right", handlelength=1.8)
+    axes.legend(loc="lower left", handlelength=1.8)
     return parts
 
 
@@ -177,23 +182,34 @@ def tabulate(all_records: Sequence[Record]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def draw_heights(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots the heights of the sound peaks of all gases over the theory, where their errors are smaller than the frame."""
-    sure = table[table.peak_ratio_error < UNSURE]
-    for (marker, color), ((zeta, mass), part) in zip(LOOKS, sure.groupby(["zeta", "mass"]), strict=False):
-        look = style.points(marker, color, label=f"$\\zeta = {zeta:g}$, $M = {format_number(mass)}$")
+def label_of(zeta: float, mass: float) -> str:
+    return rf"$\zeta = {format_number(zeta)}$, $M = {format_number(mass)}$"
+
+
+def draw_heights(axes: Axes, sure: pd.DataFrame) -> None:
+    """Plots the heights of the sound peaks of all gases over the theory."""
+    for gas, part in sure.groupby(["zeta", "mass"]):
+        look = style.points(*look_of(*gas), label=label_of(*gas))
         axes.errorbar(part.time, part.peak_ratio, part.peak_ratio_error, **look)
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="time $t$", ylabel="height of the sound peak / theory", ylim=(0.8, 1.1))
     style.label_within_decades(axes.xaxis)
-    axes.legend(loc="upper left")
 
 
-def draw_orders(axes: Axes, law: pd.DataFrame) -> None:
+def draw_octaves(axes: Axes, table: pd.DataFrame) -> None:
+    for gas, part in table.groupby(["zeta", "mass"]):
+        look = style.points(*look_of(*gas), label=label_of(*gas))
+        axes.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
+    for value, text in ((1, "1"), (4 / 3, "4/3")):
+        style.guide_at(axes, value, text)
+    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$d\ln\langle Q^2 \rangle/d\ln t$", ylim=(0.9, 1.8))
+
+
+def draw_orders(axes: Axes, law: pd.DataFrame, color: str) -> None:
     """Plots the order of the stable law fitted to the heat peak, with and without the central cells."""
     looks = {
-        "stable_order": style.points("o", style.BLUE, label="whole peak"),
-        "order_off_centre": style.points("s", style.VERMILLION, "white", label="without its centre"),
+        "stable_order": style.points("o", color, label="whole peak"),
+        "order_off_centre": style.points("s", color, "white", label="without its centre"),
     }
     for shift, (name, look) in zip((1, BESIDE), looks.items(), strict=True):
         axes.errorbar(shift * law.time, law[name], law[f"{name}_error"], **look)
@@ -204,31 +220,66 @@ def draw_orders(axes: Axes, law: pd.DataFrame) -> None:
     axes.legend(loc="upper right")
 
 
-@plots("light light-long dense dense-long heat")
+def off(ratios: pd.Series) -> str:
+    """The smallest and the largest deviation from 1, in percent, with its sign in words."""
+    percent = 100 * (ratios - 1).abs()
+    return f"{percent.min():.0f} to {percent.max():.0f} % {'below' if (ratios < 1).all() else 'off'}"
+
+
+def extremes(exponents: pd.DataFrame) -> str:
+    """The smallest and the largest of exponents."""
+    ascending = exponents.sort_values("local_exponent").iloc[[0, -1]]
+    pairs = zip(ascending.local_exponent, ascending.local_exponent_error, strict=True)
+    return " and ".join(format_with_error(*pair) for pair in pairs)
+
+
+def caption(sure: pd.DataFrame, law: pd.DataFrame, growth: pd.DataFrame, sound: Record) -> str:
+    pairs = zip(law.stable_order, law.stable_order_error, strict=True)
+    orders = [format_with_error(*pair) for pair in pairs]
+    ends = f"{orders[0]}, finally {orders[-1]}" if orders else "unknown"
+    return f"""
+        Equilibrium rings are compared with mode coupling (black), without fitted parameters. (a) Sound peaks have ζ = {format_number(sound.gas.zeta)}, M =
+        {format_number(sound.gas.mass)}. (b) From t = {SETTLED} on, their heights are {off(sure[sure.time >= SETTLED].peak_ratio)} theory. (c), (d) Heat peaks are fitted
+        by stable laws of order {ends}. (e) The heat Q that passes has exponents of ⟨Q²⟩ that end between {extremes(growth.groupby(["zeta", "mass"]).tail(1))}. {ERRORS}"""
+
+
+SERIES = "light light-long dense dense-long heat "  # of this panel, and of the elastic rings of `momentum`
+HEATS = "light-longest dense-longest dilute dilute-long dilute-longest sparse-longest"
+
+
+@plots(SERIES + HEATS)
 def draw(results: Sequence[Result]) -> Parts:
-    all_records = records(results)
+    peaks = [result for result in results if result.provenance["program"] == "correlation"]
+    all_records = records(peaks)
     table = tabulate(all_records)
-    first = chain(results[0])
+    sure = table[table.peak_ratio_error < UNSURE]
+    first = chain(peaks[0])
     sound = [
         record for record in all_records if (record.gas.zeta, record.gas.mass) == (first.zeta, first.mass)
     ]
     repeated = [record for record in all_records if len(record.results) > 1]
     law = table.dropna(subset="stable_order")
     heat = [record for record in repeated if record.time in [*law.time]][-3:] or repeated[-3:]
-    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.9 * style.HEIGHT))
-    parts = draw_sound(panels[0, 0], sound[::-2][:4][::-1]) + draw_heat(panels[0, 1], heat)
-    draw_heights(panels[1, 0], table)
-    draw_orders(panels[1, 1], law)
-    style.letter(*panels.flat)
-    orders = [
-        format_with_error(*law[["stable_order", "stable_order_error"]].iloc[k]) for k in (0, -1) if len(law)
-    ]
-    caption = f"""
-        Peaks in rings in equilibrium; black: mode coupling, nothing fitted. (a) Covariance C_g of the momenta of two cells, ζ =
-        {format_number(first.zeta)}, M = {format_number(first.mass)}. (b) Covariance C_h of their heat, ζ = {format_number(heat[-1].gas.zeta)}, M = {format_number(heat[-1].gas.mass)}.
-        (c) Height of the sound peaks. (d) Order of stable laws fitted to (b), {" and ".join(orders) or "unknown"} at the first
-        and last time. Bars: standard errors, in (d) by jackknife over {len(heat[-1].results)} runs."""
-    return figure, pd.concat([*parts, table]), caption
+    growth = tabulate_heat([result for result in results if result.provenance["program"] == "heat_current"])
+    columns = ["zeta", "mass", "middle", "local_exponent", "local_exponent_error"]
+    growth = growth.loc[growth.middle.notna() & ~(growth.local_exponent_error > UNSURE), columns]
+    figure, panels = plt.subplot_mosaic(
+        [["sound", "heat", "octaves"], ["heights", "orders", "octaves"]],
+        figsize=(2.5 * style.COLUMN, 1.7 * style.HEIGHT),
+    )
+    parts = draw_sound(panels["sound"], sound[::-2][:4][::-1]) + draw_heat(panels["heat"], heat)
+    draw_heights(panels["heights"], sure)
+    _, color = look_of(heat[-1].gas.zeta, heat[-1].gas.mass)
+    draw_orders(panels["orders"], law, color)
+    draw_octaves(panels["octaves"], growth)
+    gases = dict(
+        pair
+        for name in ("octaves", "heights")
+        for pair in zip(*panels[name].get_legend_handles_labels()[::-1], strict=True)
+    )
+    figure.legend(gases.values(), gases.keys(), loc="outside upper center", ncols=len(gases))
+    style.letter(*(panels[name] for name in ("sound", "heights", "heat", "orders", "octaves")))
+    return figure, pd.concat([*parts, table, growth]), caption(sure, law, growth, sound[-1])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Ext. 5: rates along an open chain, and the accumulation of particles at its ends. The table also has both currents."""
+"""Arrival rates along an open chain over straight lines, and the accumulation of particles at its ends. The table also has the rates and
+both currents."""
 
 from collections.abc import Iterable, Sequence
 
@@ -47,13 +48,13 @@ def tabulate(result: Result, names: Iterable[str]) -> pd.DataFrame:
     return pd.concat(parts)
 
 
-def draw_rates(raw: Axes, deviations: Axes, result: Result, table: pd.DataFrame) -> None:
-    """Plots both rates with the fitted straight lines, and their deviations from these."""
+def draw_deviations(axes: Axes, result: Result, table: pd.DataFrame) -> None:
+    """Plots the deviations of both rates from the fitted straight lines."""
     for name, part in table[table.quantity.isin(SIDES)].groupby("quantity", sort=False):
-        look = look_of(result, name)
-        raw.errorbar(part.x, part.value, part.error, **look)
-        raw.plot(part.x, part.line, color=look["color"], linewidth=0.6, zorder=1)
-        deviations.errorbar(part.x, part.deviation_percent, part.deviation_percent_error, **look)
+        label = rf"$\gamma = {setting.gamma(result)}$, {SIDES[name][1]}"
+        axes.errorbar(
+            part.x, part.deviation_percent, part.deviation_percent_error, **look_of(result, name), label=label
+        )
 
 
 def draw_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
@@ -85,9 +86,9 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
         for number, gamma in zip(far.deviation_percent.abs(), far.gamma, strict=True)
     )
     return f"""
-        Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}. (a) Arrivals at a scatterer per time,
-        {parameters(profiles, "cells")}; (b) their deviation from straight lines, up to {largest}. (c) Excess density of the
-        end cells; lines: a + b ln N from N = {FITTED} on, b = {listed(map(format_with_error, slopes.slope, slopes.slope_error))}. {ERRORS}"""
+        Arrival rates (a) deviate from straight lines by at most {largest} ({parameters(profiles, "cells", "sigma", "cell-length")},
+        {baths(profiles[0])}). (b) The density of the end cells exceeds the line of the bulk. Lines show a + b ln N from N = {FITTED} on, with b =
+        {listed(map(format_with_error, slopes.slope, slopes.slope_error))}. {ERRORS}"""
 
 
 @plots("deterministic rare size")
@@ -95,30 +96,23 @@ def draw(results: Sequence[Result]) -> Parts:
     profiles = [result for result in results if result.series != "size"]
     sizes = [result for result in results if result.series != "deterministic"]
     sizes.sort(key=lambda result: result.parameters["cells"])
-    figure, (raw, deviations, excess) = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
-    tables = []
-    for result in profiles:
-        tables.append(tabulate(result, (*SIDES, *CURRENTS)))
-        draw_rates(raw, deviations, result, tables[-1])
-        label = rf"$\gamma = {setting.gamma(result)}$"
-        deviations.errorbar([], [], [], **look_of(result, "rate_right"), label=label)
-    for name, (_, label) in SIDES.items():
-        raw.errorbar([], [], [], **look_of(profiles[0], name), label=label)
+    figure, (deviations, excess) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
+    tables = [tabulate(result, (*SIDES, *CURRENTS)) for result in profiles]
+    for result, table in zip(profiles, tables, strict=True):
+        draw_deviations(deviations, result, table)
     table = pd.concat([*tables, draw_excess(excess, sizes)], ignore_index=True)
     deviations.axhline(0, **style.GUIDE)
-    raw.set(xlabel="$x$", ylabel=f"rate at a scatterer ({style.UNITS})")
     deviations.set(xlabel="$x$", ylabel="rate over line, minus 1 / %")
+    deviations.legend(loc="upper right", handletextpad=0.2)
     excess.set(
         xscale="log", xlabel="number of cells $N$", ylabel="excess density of an end cell", ylim=(0, None)
     )
     excess.legend(loc="upper left", title=r"$\gamma = 1$")
-    for axes in (raw, deviations):
-        axes.legend(loc="upper right", handletextpad=0.2)
-    style.letter(raw, deviations, excess)
+    style.letter(deviations, excess)
     return figure, table, caption(table, profiles)
 
 
 if __name__ == "__main__":
     by_row = dict.fromkeys(("value", "error", "line"), "column units")
     pure = dict.fromkeys(("x", "deviation_percent", "fitted", "slope", "chi_square"), "1")
-    main(draw, "Rates and density along the chain", **pure, **by_row)
+    main(draw, "Linearity of the rates, and accumulation at the ends", **pure, **by_row)

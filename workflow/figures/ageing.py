@@ -1,4 +1,4 @@
-"""Ext. 7: ageing. Energies against the logarithm of time, with the quasi-stationary estimate, and the influence of the relaxation
+"""Ageing: energies against the logarithm of time, with the quasi-stationary estimate, and the influence of the relaxation
 time.
 
 With few particles the energy saturates. Several quantities depend on the relaxation time. The exponent of the
@@ -106,11 +106,12 @@ def caption(ageing: Sequence[Result], slopes: pd.DataFrame, spreading: pd.DataFr
     paper = ageing[0].parameters["particles-per-cell"]
     last = slopes[slopes.particles_per_cell == paper].iloc[-1]
     ratio = format_with_error(last.value / last.estimate, last.error / last.estimate)
+    growth = format_with_error(last.value, last.error)
     end = spreading.iloc[-1]
     return f"""
-        Ageing of a closed chain from scatterers at rest, {parameters(ageing[:1], "cells", "sigma", *GAS)}. (a) Mean kinetic energies. (b) Slope of
-        a scatterer's against ln t, by decade. Lines: quasi-stationary estimate, nothing fitted; for n = {paper} the last slope is {ratio} of it.
-        (c) Exponent α of the spreading at zero total momentum, {format_with_error(end.value, end.error)} at the end. {ERRORS}"""
+        A chain whose scatterers start at rest approaches equilibrium slowly ({parameters(ageing[:1], "cells", "sigma", *GAS)}): in the last decade of time
+        their energy changes by {growth} per unit of ln t. (a) Lines are a quasi-stationary estimate without fit. (b) The last slope at n = {paper} is
+        {ratio} of this. (c) The exponent α ends at {format_with_error(end.value, end.error)}. {ERRORS}"""
 
 
 @plots("energy long few persistence waiting spreading")

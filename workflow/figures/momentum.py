@@ -1,0 +1,201 @@
+"""Growth of heat transport with and without conserved momentum.
+
+Particles that pass a scatterer with the probability 1 - gamma/N disturb motion as reversals of the momentum of the scatterer in a fraction
+epsilon of the collisions do, but conserve momentum. Chains have a fixed spacing; those at the spacing 1/N are named. Q is the integral of
+J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28], and D = <Q²>/2Nt at a common
+epsilon t. The table also has rings of other gases, and with random directions.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+
+from workflow.lib import style
+from workflow.lib.caption import ERRORS, format_number
+from workflow.lib.figure import Parts, main, plots
+from workflow.lib.fit import fit_power, format_with_error
+from workflow.lib.load import Result
+from workflow.physics import rings, setting
+
+CURVE = ["passing", "epsilon", "thinning"]  # columns that identify a curve of chains
+RULES = ("elastic", setting.REVERSAL)
+CHAINS = ("chain-", "dense")  # beginnings of the names of their series
+COMMON = 5  # εt, in λ/√T, at which D of different ε are compared
+LARGEST = 0.1  # ε of the fit to D; with more the decay ends before ⟨Q²⟩ follows a power law
+LATE = 8  # first time, in λ/√T, that is plotted against εt; before, particles fly between few collisions
+# Markers and colours where momentum is conserved, by ascending probability of passing, and where it is not, by descending ε.
+CONSERVED = [("o", style.BLACK), ("s", style.BLUE), ("D", style.SKY)]
+BROKEN = [("<", style.PURPLE), ("v", style.VERMILLION), ("^", style.ORANGE), (">", style.GREEN)]
+
+
+class Case(NamedTuple):
+    """What happens in place of an elastic collision, with what probability."""
+
+    passing: float
+    epsilon: float
+
+    @property
+    def label(self) -> str:
+        if self.epsilon:
+            return rf"reversed, $\epsilon = {format_number(self.epsilon)}$"
+        return f"passing, {100 * self.passing:g} %" if self.passing else "elastic"
+
+
+def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
+    """Filled markers where momentum is conserved, open ones where it is not."""
+    conserved = sorted(case for case in cases if not case.epsilon)
+    broken = sorted((case for case in cases if case.epsilon), reverse=True)
+    found = {case: style.points(*look) for case, look in zip(conserved, CONSERVED, strict=False)}
+    return found | {case: style.points(*look, "white") for case, look in zip(broken, BROKEN, strict=False)}
+
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per chain, sorted by N, with kappa over that at the smallest size that all curves have."""
+    rows: list[dict[str, Any]] = []
+    for result in results:
+        row: dict[str, Any] = {"passing": setting.passing(result), "epsilon": setting.epsilon(result)}
+        row |= {"spacing": setting.spacing(result)[1], "thinning": result.series.endswith("thinning")}
+        row |= {"cells": int(result.parameters["cells"])}
+        rows.append(row | result.columns("kappa") | {"usable": result.usable})
+    table = pd.DataFrame(rows).sort_values([*CURVE, "cells"], ignore_index=True)
+    reference = (
+        table[table.cells == min(common_sizes(table))].set_index(CURVE).reindex(table.set_index(CURVE).index)
+    )
+    relative = np.hypot(table.kappa_error / table.kappa, (reference.kappa_error / reference.kappa).to_numpy())
+    table["growth"] = table.kappa / reference.kappa.to_numpy()
+    table["growth_error"] = table.growth * relative.where(table.cells != reference.cells.to_numpy(), 0)
+    return table
+
+
+def common_sizes(table: pd.DataFrame) -> set[int]:
+    """Sizes of all curves."""
+    return set.intersection(*(set(part.cells) for _, part in table.groupby(CURVE)))
+
+
+def collapse(control: pd.DataFrame, epsilon: float, unit: float) -> tuple[pd.Series, pd.Series, pd.Series]:
+    """εt, ε^(1/3) <Q²>/2t and its error, after the first collisions. unit: √T/λ."""
+    late = control[control.time * unit >= LATE]
+    factor = epsilon ** (1 / 3) / (2 * late.time)
+    return epsilon * late.time, factor * late.heat_variance, factor * late.heat_variance_error
+
+
+def diffusion(control: pd.DataFrame, unit: float) -> pd.DataFrame:
+    """D at the common εt, by ε: interpolated on logarithmic axes, with the larger relative error of both neighbours."""
+    rows = []
+    for fraction, part in control[control.epsilon > 0].groupby("epsilon"):
+        scaled = fraction * unit * part.time.to_numpy()
+        if scaled[0] < COMMON <= scaled[-1]:
+            logarithms = (np.log(values) for values in (scaled, part.heat_variance / (2 * part.time)))
+            value = np.exp(np.interp(np.log(COMMON), *logarithms))
+            last = int(np.searchsorted(scaled, COMMON))
+            relative = (part.heat_variance_error / part.heat_variance).iloc[last - 1 : last + 1].max()
+            rows.append({"epsilon": fraction, "diffusion": value, "diffusion_error": value * relative})
+    return pd.DataFrame(rows, columns=["epsilon", "diffusion", "diffusion_error"])
+
+
+def exponent(diffusions: pd.DataFrame) -> str:
+    """Exponent of D against ε up to LARGEST."""
+    fitted = diffusions[diffusions.epsilon <= LARGEST].dropna()
+    if len(fitted) < 2:
+        return "(unknown)"
+    return fit_power(fitted.epsilon, fitted.diffusion, fitted.diffusion_error).text
+
+
+def growth(chains: pd.DataFrame, case: Case) -> str:
+    """kappa of a case at the largest size that all curves have, over that at the smallest."""
+    same = (chains.passing == case.passing) & (chains.epsilon == case.epsilon) & ~chains.thinning
+    (row,) = chains[same & (chains.cells == max(common_sizes(chains)))].itertuples()
+    return format_with_error(row.growth, row.growth_error)
+
+
+def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFrame) -> str:
+    sizes, gas = common_sizes(chains), control.iloc[0]
+    passing, epsilon = (chains[name][chains[name] > 0].min() for name in ("passing", "epsilon"))
+    cases = (Case(0, 0), Case(passing, 0), Case(0, epsilon))
+    fixed = chains.spacing[~chains.thinning].iloc[0]
+    elastic, passed, broken = (growth(chains, case) for case in cases)
+    return f"""
+        Collisions that conserve momentum are compared with reversals, which do not (open symbols). (a) In chains with λ = {fixed}, κ({max(sizes)})/κ({min(sizes)})
+        is {elastic} if collisions are elastic, {passed} with {100 * passing:g} % passing and {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings, the heat Q that passes
+        has ⟨Q²⟩ ∼ t^β (M = {format_number(gas.mass)}). (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}. {ERRORS}"""
+
+
+def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
+    for (passing, epsilon, thinning), part in chains.groupby(CURVE):
+        case = Case(passing, epsilon)
+        points = look[case] | {"linestyle": "-", "linewidth": 0.6, "label": case.label}
+        if thinning:
+            points |= {"marker": "d", "linestyle": "dotted", "label": rf"{case.label}, $\lambda = 1/N$"}
+        axes.errorbar(part.cells, part.growth, part.growth_error, **points)
+    style.cross_out(axes, chains.cells, chains.growth, ~chains.usable)
+    style.against_size(axes)
+    axes.set_ylabel(rf"$\kappa(N)/\kappa({min(common_sizes(chains))})$")
+
+
+def draw_rings(
+    against_time: Axes, collapsed: Axes, control: pd.DataFrame, look: dict[Case, style.Look], unit: float
+) -> None:
+    """Plots β - 1 of every case, and the collapse of those with reversals beside the curve of elastic collisions, which is scaled with the
+    smallest ε."""
+    for (passing, epsilon), part in control.groupby(["passing", "epsilon"]):
+        case = Case(passing, epsilon)
+        points = look[case] | {"linestyle": "-", "linewidth": 0.6, "label": case.label}
+        against_time.errorbar(part.middle, part.local_exponent - 1, part.local_exponent_error, **points)
+        if epsilon:
+            collapsed.errorbar(*collapse(part, epsilon, unit), **points)
+    elastic = control[(control.passing == 0) & (control.epsilon == 0)]
+    x, y, _ = collapse(elastic, control.epsilon[control.epsilon > 0].min(), unit)
+    collapsed.plot(x, y, color=CONSERVED[0][1], zorder=1)
+    style.guide_at(against_time, 0, "0")
+    style.guide_at(against_time, 1 / 3, "1/3")
+    against_time.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$", ylim=(-0.2, 0.75))
+    collapsed.set(xscale="log", xlabel=r"$\epsilon t$")
+    collapsed.set_ylabel(rf"$\epsilon^{{1/3}} \langle Q^2 \rangle/2Nt$ ({style.UNITS})")
+
+
+GASES = "light light-long light-longest dense dense-long dense-longest dilute dilute-long dilute-longest sparse-longest "
+CONTROLS = (
+    "passing reversal reversal-rare random chain-passing chain-reversal chain-reversal-thinning dense-large"
+)
+
+
+@plots(GASES + CONTROLS)
+def draw(results: Sequence[Result]) -> Parts:
+    shown = [result for result in results if result.provenance["program"] == "heat_current"]
+    # `density` has another series of the name `dilute`.
+    spaced = [
+        result
+        for result in results
+        if result.provenance["program"] == "conductivity" and result.series.startswith(CHAINS)
+    ]
+    chains = tabulate(spaced)
+    table = rings.tabulate(shown)
+    broken = table[table.epsilon > 0].iloc[0]
+    control = table[(table.zeta == broken.zeta) & (table.mass == broken.mass) & table.rule.isin(RULES)]
+    unit = float(np.sqrt(shown[0].parameters["temperature"]) / shown[0].parameters["cell-length"])
+    diffusions = diffusion(control, unit)
+    look = looks(
+        {Case(*pair) for part in (chains, control) for pair in zip(part.passing, part.epsilon, strict=True)}
+    )
+    figure, panels = plt.subplots(1, 3, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT))
+    draw_chains(panels[0], chains, look)
+    draw_rings(panels[1], panels[2], control, look, unit)
+    legends = [zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels]
+    handles = {text: handle for legend in legends for handle, text in legend}
+    order = [case.label for case in sorted(look, key=lambda case: (case.epsilon, case.passing))]
+    labels = sorted(handles, key=lambda text: order.index(text) if text in order else len(order))
+    figure.legend([handles[text] for text in labels], labels, loc="outside upper center", ncols=4)
+    style.letter(*panels)
+    whole = pd.concat([chains.drop(columns="thinning"), table, diffusions])
+    return figure, whole, caption(chains, control, diffusions)
+
+
+if __name__ == "__main__":
+    own = dict.fromkeys(("passing", "epsilon", "zeta", "mass", "growth"), "1")
+    main(
+        draw, "Heat transport with and without conserved momentum", diffusion="energy^2 length^2/time", **own
+    )

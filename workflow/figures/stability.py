@@ -1,0 +1,98 @@
+"""Numerical stability: drift of energy and momentum against the number of collisions and towards |σ| = 1, and persistence over thirty
+orders of magnitude of the spacing.
+
+The drifts are those of closed chains, which conserve both: relative changes from the start to the end of a replica, mean of the
+magnitudes over replicas. Independent rounding errors grow as the square root of the number of collisions.
+"""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+
+from workflow.lib import style
+from workflow.lib.caption import ERRORS, format_number, parameters, power_of_ten, scientific
+from workflow.lib.figure import Parts, main, plots
+from workflow.lib.load import Result
+
+COLLISIONS, MASSES = "collisions", "mass-ratio"
+SCALES = ("tiny", "small", "one", "large", "huge")
+LOOKS = [("o", style.BLACK), ("s", style.BLUE), ("^", style.VERMILLION), ("v", style.ORANGE)]
+DRIFTS = ["energy_drift", "momentum_drift"]
+
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per run. collisions: mean number in a replica."""
+    rows = []
+    for result in results:
+        row = {name: result.parameters[name] for name in ("sigma", "cell-length", "observation-time")}
+        replicas = int(result["mu"].replicas.max())
+        row |= {"part": result.series, "collisions": result.provenance["events"] / replicas}
+        rows.append(row | result.columns("mu", *DRIFTS))
+    return pd.DataFrame(rows)
+
+
+def draw_collisions(axes: Axes, table: pd.DataFrame) -> None:
+    for (sigma, part), (marker, color) in zip(table.groupby("sigma"), LOOKS, strict=False):
+        ordered = part.sort_values("collisions")
+        for drift, face in zip(DRIFTS, (None, "white"), strict=True):
+            label = rf"$\sigma = {sigma:g}$" if drift == DRIFTS[0] else None
+            axes.errorbar(
+                ordered.collisions,
+                ordered[drift],
+                ordered[f"{drift}_error"],
+                **style.points(marker, color, face, label=label),
+            )
+    through = np.exp(np.mean(np.log(table.energy_drift / np.sqrt(table.collisions))))
+    ends = np.array([table.collisions.min(), table.collisions.max()])
+    axes.plot(ends, through * np.sqrt(ends), **style.GUIDE)
+    axes.set(xscale="log", yscale="log", xlabel="collisions in a replica", ylabel="relative drift")
+    axes.legend(loc="upper left")
+
+
+def draw_masses(axes: Axes, table: pd.DataFrame) -> None:
+    for (above, part), (marker, color) in zip(table.groupby(table.sigma > 0), LOOKS[1:3], strict=True):
+        for drift, face in zip(DRIFTS, (None, "white"), strict=True):
+            label = rf"$\sigma {'>' if above else '<'} 0$" if drift == DRIFTS[0] else None
+            axes.errorbar(
+                1 - np.abs(part.sigma),
+                part[drift],
+                part[f"{drift}_error"],
+                **style.points(marker, color, face, label=label),
+            )
+    axes.set(xscale="log", yscale="log", xlabel=r"$1 - |\sigma|$", ylabel="relative drift")
+    axes.legend(loc="upper right")
+
+
+def draw_scales(axes: Axes, table: pd.DataFrame) -> None:
+    axes.errorbar(table["cell-length"], table.mu, table.mu_error, **style.points("o", style.BLACK))
+    axes.axhline(table.mu.mean(), **style.GUIDE)
+    axes.set(xscale="log", xlabel=r"spacing $\lambda$", ylabel=r"persistence $\mu$")
+    axes.margins(y=1)
+
+
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+    longest, scales = table.loc[table.collisions.idxmax()], table[table.part.isin(SCALES)]
+    orders = np.log10(scales["cell-length"].max() / scales["cell-length"].min())
+    power = power_of_ten(int(np.log10(longest.collisions)))
+    return f"""
+        Rounding errors change the conserved energy (full symbols) and momentum (open symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}):
+        after more than {power} collisions the energy has changed by {scientific(longest.energy_drift)} of itself. (a) The dashed line shows a square root. (b) Scatterers
+        become infinitely light or heavy towards σ = ±1. (c) The spacing covers {orders:.0f} orders of magnitude, at σ = {format_number(scales.sigma.iloc[0])}. {ERRORS}"""
+
+
+@plots("collisions mass-ratio tiny small one large huge")
+def draw(results: Sequence[Result]) -> Parts:
+    table = tabulate(results)
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(3 * style.COLUMN, style.HEIGHT))
+    draw_collisions(left, table[table.part == COLLISIONS])
+    draw_masses(middle, table[table.part == MASSES])
+    draw_scales(right, table[table.part.isin(SCALES)])
+    style.letter(left, middle, right)
+    return figure, table, caption(table, results)
+
+
+if __name__ == "__main__":
+    main(draw, "Numerical stability", collisions="1")
