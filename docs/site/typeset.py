@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 SKIPPED = re.compile(
-    r"(<(?:code|pre|script|style|svg)\b.*?</(?:code|pre|script|style|svg)>|<div class=\"arithmatex\">.*?</div>|<[^>]*>)",
+    r"(<(?:code|pre|script|style|svg)\b.*?</(?:code|pre|script|style|svg)>|<div class=\"arithmatex\">.*?</div>|<span class=\"arithmatex\">.*?</span>|<[^>]*>)",
     re.DOTALL,
 )
 INDEX = re.compile(r"(?<!\w)([^\W\d_]{1,2}|\))_(?:\{([^}]*)\}|(\w{1,2})\b)")
