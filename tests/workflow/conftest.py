@@ -196,9 +196,9 @@ def project(made: Project, tmp_path: Path) -> Project:
 
 @pytest.fixture(scope="session")
 def smoke() -> Path:
-    """The folder of this project, in which all figures at smoke quality are made."""
+    """The folder of this project, in which all figures and the report at smoke quality are made."""
     (ROOT / "build").mkdir(exist_ok=True)
     with (ROOT / "build/test.lock").open("w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)  # other workers of pytest wait
-        subprocess.run([sys.executable, "-m", "workflow", "figures", "QUALITY=smoke"], cwd=ROOT, check=True)
+        subprocess.run([sys.executable, "-m", "workflow", "report", "QUALITY=smoke"], cwd=ROOT, check=True)
     return ROOT
