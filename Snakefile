@@ -37,7 +37,9 @@ if unknown := {*config} - {"quality", "panel"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality= or panel=")
 try:
     PLAN = load_plan(QUALITY)
-    PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()] or default_panels(PLAN)
+    PANELS = [
+        panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()
+    ] or default_panels(PLAN)
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
     STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
     REPORT = report_stem(PLAN, QUALITY)
