@@ -28,23 +28,21 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         row = {name: result.parameters[name] for name in ("sigma", "cell-length", "observation-time")}
-        replicas = int(result["mu"].replicas.max())
-        row |= {"part": result.series, "collisions": result.provenance["events"] / replicas}
+        row |= {"part": result.series, "collisions": result.provenance["events"] / result.replicas}
         rows.append(row | result.columns("mu", *DRIFTS))
     return pd.DataFrame(rows)
 
 
+def draw_drifts(axes: Axes, x: pd.Series, part: pd.DataFrame, look: tuple[str, str], label: str) -> None:
+    """Plots the drift of energy as full symbols and that of momentum as open ones."""
+    for drift, face, text in zip(DRIFTS, (None, "white"), (label, None), strict=True):
+        axes.errorbar(x, part[drift], part[f"{drift}_error"], **style.points(*look, face, label=text))
+
+
 def draw_collisions(axes: Axes, table: pd.DataFrame) -> None:
-    for (sigma, part), (marker, color) in zip(table.groupby("sigma"), LOOKS, strict=False):
+    for (sigma, part), look in zip(table.groupby("sigma"), LOOKS, strict=False):
         ordered = part.sort_values("collisions")
-        for drift, face in zip(DRIFTS, (None, "white"), strict=True):
-            label = rf"$\sigma = {sigma:g}$" if drift == DRIFTS[0] else None
-            axes.errorbar(
-                ordered.collisions,
-                ordered[drift],
-                ordered[f"{drift}_error"],
-                **style.points(marker, color, face, label=label),
-            )
+        draw_drifts(axes, ordered.collisions, ordered, look, rf"$\sigma = {sigma:g}$")
     through = np.exp(np.mean(np.log(table.energy_drift / np.sqrt(table.collisions))))
     ends = np.array([table.collisions.min(), table.collisions.max()])
     axes.plot(ends, through * np.sqrt(ends), **style.GUIDE)
@@ -53,15 +51,8 @@ def draw_collisions(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_masses(axes: Axes, table: pd.DataFrame) -> None:
-    for (above, part), (marker, color) in zip(table.groupby(table.sigma > 0), LOOKS[1:3], strict=True):
-        for drift, face in zip(DRIFTS, (None, "white"), strict=True):
-            label = rf"$\sigma {'>' if above else '<'} 0$" if drift == DRIFTS[0] else None
-            axes.errorbar(
-                1 - np.abs(part.sigma),
-                part[drift],
-                part[f"{drift}_error"],
-                **style.points(marker, color, face, label=label),
-            )
+    for (above, part), look in zip(table.groupby(table.sigma > 0), LOOKS[1:3], strict=True):
+        draw_drifts(axes, 1 - part.sigma.abs(), part, look, rf"$\sigma {'>' if above else '<'} 0$")
     axes.set(xscale="log", yscale="log", xlabel=r"$1 - |\sigma|$", ylabel="relative drift")
     axes.legend(loc="upper right")
 

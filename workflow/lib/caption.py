@@ -21,7 +21,6 @@ SYMBOLS = {
     "energy": "ε⁰ = {}",
     "pulse-energy": "ε̃ = {}",
 }
-CHAIN = ("cells", "cell-length", "sigma", "gamma")
 GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)

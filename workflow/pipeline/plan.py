@@ -81,8 +81,7 @@ class Run:
 @dataclass(frozen=True)
 class Panel:
     """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of paper.yaml that the quality
-    replaces, as `cells of rare`; reads: files that the script reads; beyond: whether it goes
-    beyond the paper, and is made for the report only."""
+    replaces, as `cells of rare`; reads: files that the script reads; beyond: not of the paper, and made for the report only."""
 
     name: str
     script: str
@@ -174,7 +173,7 @@ def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
         for number, path in enumerate(panel.reads):
             inside = not Path(path).is_absolute() and ".." not in Path(path).parts
             if not inside or not (ROOT / path).is_file():
-                text = f"{path} is not a file below {ROOT}: write it there, and here its path from there"
+                text = f"{path} is not the path of a file from {ROOT}: write the file there"
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "reads", number), text))
     return panels
 

@@ -41,9 +41,8 @@ def value(number: Estimate) -> str:
         return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
     if math.isnan(number.error):
         return f"{number.value:.4g} (error unknown)".replace("-", MINUS)
-    if not number.error:
-        return f"{format_with_error(number.value, 0)}{BOUND}{short(number.systematic)}"
-    return format_with_error(number.value, number.error, number.systematic)
+    bound = "" if number.error or not number.systematic else f"{BOUND}{short(number.systematic)}"
+    return f"{format_with_error(number.value, number.error, number.systematic)}{bound}"
 
 
 def short(size: float) -> str:

@@ -6,7 +6,6 @@ import argparse
 import base64
 import io
 import json
-import math
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
@@ -91,20 +90,17 @@ def cpu_seconds(result: Path) -> str:
     return ""
 
 
-def of_release(root: Path) -> dict[tuple[str, str], str]:
-    """Verdict of the release on every claim, with the smallest and the largest number, by claim and kind; empty without a release."""
+def of_release(root: Path) -> dict[tuple[str, str], tuple[str, str]]:
+    """Verdict and range of the numbers of the release, by claim and kind; empty without a release."""
     try:
-        table = pd.read_csv(root / GALLERY / "numbers.csv").fillna({"error": math.nan})
+        table = pd.read_csv(root / GALLERY / "numbers.csv")
         found = {}
-        for (claim, kind), part in table.groupby(["claim", "kind"], sort=False):
-            low, high = (
-                typeset.value(Estimate("", line.value, line.error, systematic=line.systematic))
-                for line in part.sort_values("value").iloc[[0, -1]].itertuples()
-            )
-            found[str(claim), str(kind)] = (
-                f"{part.claim_verdict.iloc[0]}, {low if len(part) == 1 else f'{low} to {high}'}"
-            )
-    except (OSError, KeyError, AttributeError):
+        for key, part in table.groupby(["claim", "kind", "claim_verdict"], sort=False):
+            claim, kind, verdict = map(str, key)
+            ends = part.sort_values("value").iloc[[0, -1]].drop_duplicates().itertuples()
+            numbers = (Estimate("", end.value, end.error, systematic=end.systematic) for end in ends)
+            found[claim, kind] = verdict, " to ".join(map(typeset.value, numbers))
+    except (OSError, KeyError):
         return {}
     return found
 

@@ -105,8 +105,8 @@ class FigureFiles:
                 if sha256(content) != digest:
                     if (states := stated(content)) not in (None, self.statement):
                         reason = f"its identity is {states[2]}, that of other sources or results"
-                        return Fault("stale", path, f"{reason}; make figures writes the present one")
-                    remedy = "remove it" if path.startswith(RENDERED) else "make figures writes it again"
+                        return Fault("stale", path, f"{reason}; make report writes the present one")
+                    remedy = "remove it" if path.startswith(RENDERED) else "make report writes it again"
                     return Fault("edited", path, f"it differs from its hash in {self.stem}.json; {remedy}")
         return self._fault_of_rendering() if render else None
 
@@ -195,5 +195,5 @@ def main(options: argparse.Namespace) -> int:
         print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed}")
     broken = states.keys() - {"not checked"}
     if broken & {"stale", "missing"}:
-        print(f"make figures {options.effort} makes stale and missing files")
+        print(f"make report {options.effort} makes stale and missing files")
     return 1 if broken else 3 if states or not made else 0

@@ -55,10 +55,8 @@ def main(options: argparse.Namespace) -> None:
     results = runs_of(plan, plan, quality)
     costs = [cost for path in results if os.path.exists(cost := path.replace(".h5", ".cost.json"))]
     paths = {*git("ls-files"), *results, *costs, *(path for panel in plan.values() for path in panel.reads)}
-    descriptions = DESCRIPTIONS.relative_to(ROOT).glob(
-        "*.json"
-    )  # for status and load_panel before make build
-    paths |= {*map(str, descriptions)}
+    # For status and load_panel before make build.
+    paths |= {*map(str, DESCRIPTIONS.relative_to(ROOT).glob("*.json"))}
     for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
         paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}
     archive = Path(f"build/deposit/lorentz-gas-{quality}.zip")

@@ -36,10 +36,8 @@ def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
 
 def tracked() -> set[str]:
     """Results in git; none in a copy without it."""
-    listed = subprocess.run(
-        ["git", "ls-files", "data"], capture_output=True, text=True, check=False
-    )  # that of a folder around this one has other paths
-    return {*listed.stdout.splitlines()}
+    command = ["git", "--git-dir=.git", "ls-files", "data"]
+    return {*subprocess.run(command, capture_output=True, text=True, check=False).stdout.splitlines()}
 
 
 def main(options: argparse.Namespace) -> None:
