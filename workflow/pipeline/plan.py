@@ -173,7 +173,7 @@ def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
         for number, path in enumerate(panel.reads):
             inside = not Path(path).is_absolute() and ".." not in Path(path).parts
             if not inside or not (ROOT / path).is_file():
-                text = f"{path} is not the path of a file from {ROOT}: write the file there"
+                text = f"{path} is not a file below {ROOT}, or not its path from there: write the file there"
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "reads", number), text))
     return panels
 
