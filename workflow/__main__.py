@@ -17,6 +17,7 @@ from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError, panel_names
+from workflow.pipeline.cost import expected
 from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.lock import lock_products
@@ -150,7 +151,7 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
 
 
 def make(target: str, options: argparse.Namespace) -> int:
-    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make. After SEED and REPLICAS
+    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make, and its CPU time. After SEED and REPLICAS
     compares with the results of the quality. Raises OSError."""
     names, quality = options.panels or [*options.plan], options.quality
     stems = [stem_of(options.plan, name, quality) for name in names]
@@ -161,6 +162,8 @@ def make(target: str, options: argparse.Namespace) -> int:
     missing = [path for path in planned if not os.path.exists(path)]
     if options.dry:
         print("\n".join(missing) or "Nothing to be made")
+        if results := [path for path in missing if path.endswith(".h5")]:
+            print(expected(results))
         return 0
     for panel in (options.plan[name] for name in options.panel.split() if options.plan[name].replaced):
         print(

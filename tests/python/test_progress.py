@@ -38,10 +38,11 @@ def command(folder: Path, simulate: str) -> list[str]:
 
 def test_a_file_has_a_line_per_panel_and_doubtful_result(tmp_path: Path) -> None:
     shown = subprocess.check_output(command(tmp_path, NOT_STATIONARY), cwd=tmp_path, text=True)
-    first, second, panel = shown.splitlines()
+    first, second, panel, last = shown.splitlines()
     assert {first[:8], second[:8]} == {"fig05/a:", "fig05/b:"}
-    assert re.fullmatch(r"fig05/[ab]: not stationary; 1 of 4 done, 0:00:\d\d", first)
-    assert re.fullmatch(r"fig05: rendered; 3 of 4 done, 0:00:\d\d", panel)
+    assert re.fullmatch(r"fig05/[ab]: not stationary; 1 of 4 jobs done, elapsed 0:00:\d\d", first)
+    assert re.fullmatch(r"fig05: rendered; 3 of 4 jobs done, elapsed 0:00:\d\d", panel)
+    assert last.startswith("4 of 4 jobs done")
 
 
 def test_a_failure_has_the_end_of_its_log(tmp_path: Path) -> None:
@@ -51,7 +52,7 @@ def test_a_failure_has_the_end_of_its_log(tmp_path: Path) -> None:
     run = heading[: len("fig05/a")]
     assert heading == f"{run} failed. The end of {run}.log:"
     assert lines == [f"  [bold] {k}" for k in range(89, 101)]
-    assert last.startswith(f"Failed: {run}; 0 of 4 done")
+    assert last.startswith(f"Failed: {run}; 0 of 4 jobs done")
 
 
 def test_a_terminal_has_a_bar_and_the_running_jobs_until_ctrl_c(tmp_path: Path) -> None:
@@ -69,7 +70,7 @@ def test_a_terminal_has_a_bar_and_the_running_jobs_until_ctrl_c(tmp_path: Path) 
                 time.sleep(0.2)
                 keys -= 1
     os.waitpid(process, 0)
-    assert re.search(r"━+\s*0 of 4 done, 0:00:\d\d\s+fig05/[ab]  at work", shown)
-    assert re.search(r"Stopped; 0 of 4 done, 0:00:\d\d\.", shown)
+    assert re.search(r"━+\s*0 of 4 jobs done, elapsed 0:00:\d\d\s+fig05/[ab]  at work", shown)
+    assert re.search(r"Stopped; 0 of 4 jobs done, elapsed 0:00:\d\d\.", shown)
     assert "failed" not in shown
     assert "Traceback" not in shown

@@ -1,6 +1,8 @@
 """What is made again after a change: exactly what it affects, whatever else happens to the files."""
 
+import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -76,6 +78,22 @@ def test_snakemake_makes_what_is_listed_and_a_dry_run_changes_no_file(project: P
     shown = project.snakemake("--dry-run", "figures").splitlines()
     assert named("\n".join(line for line in shown if " output: " in line)) == {"mu"}
     assert project.files("data", "figures", "build", "workflow/config") == before
+
+
+def test_a_dry_run_sums_the_costs_of_former_runs(project: Project) -> None:
+    """Of the same effort, with any seed and from any sources; a run without one is counted as such."""
+    former = [*(project.folder / "data/smoke").glob("*/*.cost.json")]
+    for path in former:
+        path.write_text(json.dumps({"cpu_seconds": 2.0}))
+    runs = len(former)
+    last = project.entry("figures", "DRY=yes", "SEED=7").splitlines()[-1]
+    assert re.findall(r"[\d.]+", last) == [str(runs), str(runs), f"{2 * runs:.2g}"]
+    former[0].unlink()
+    last = project.entry("figures", "DRY=yes", "SEED=7").splitlines()[-1]
+    assert re.findall(r"[\d.]+", last) == [str(runs - 1), str(runs), f"{2 * (runs - 1):.2g}"]
+    last = project.entry("figures", "DRY=yes", "REPLICAS=7").splitlines()[-1]
+    assert "unknown" in last
+    assert "CPU" not in project.entry("figures", "DRY=yes")
 
 
 def test_equal_inputs_give_equal_bytes_in_any_environment(project: Project) -> None:

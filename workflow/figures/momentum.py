@@ -159,7 +159,8 @@ def draw_rings(
 
 GASES = "light light-long light-longest dense dense-long dense-longest dilute dilute-long dilute-longest sparse-longest "
 CONTROLS = (
-    "passing reversal reversal-rare random chain-passing chain-reversal chain-reversal-thinning dense-large"
+    "passing passing-half reversal reversal-others reversal-rare random "
+    "chain-passing chain-passing-half chain-reversal chain-reversal-rare chain-reversal-thinning dense-large"
 )
 
 

@@ -5,10 +5,8 @@ beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
 import argparse
 import base64
 import io
-import json
 import sys
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +22,7 @@ from workflow.lib.files import in_one_line, write_together
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
 from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.cost import cpu_seconds
 from workflow.pipeline.plan import Selection, runs_of, stem_of
 from workflow.pipeline.publish import read_record
 from workflow.report import typeset
@@ -81,13 +80,6 @@ def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
         ],
         "sources": [path for path in record["parents"] if not path.endswith(".h5")],
     }
-
-
-def cpu_seconds(result: Path) -> str:
-    """CPU time of a result, empty if it is not known."""
-    with suppress(OSError, ValueError, KeyError):
-        return f"{json.loads(result.with_suffix('.cost.json').read_text())['cpu_seconds']:.2g} s"
-    return ""
 
 
 def of_release(root: Path) -> dict[tuple[str, str], tuple[str, str]]:

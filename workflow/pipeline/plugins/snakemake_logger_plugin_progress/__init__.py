@@ -101,11 +101,14 @@ class LogHandler(LogHandlerBase):
         if self._stopped or self._failed:
             end = f"Failed: {', '.join(self._failed)}" if self._failed else "Stopped"
             self._print(f"{end}; {self._state()}. Finished results are kept.")
-        self._stopped, self._failed = False, []  # Python closes all handlers again at exit
+        elif self._done:
+            self._print(self._state())
+        self._stopped, self._failed, self._done = False, [], 0  # Python closes all handlers again at exit
         super().close()
 
     def _state(self) -> str:
-        return f"{self._done} of {self._total} done, {timedelta(seconds=int(time.monotonic() - self._begin))}"
+        elapsed = timedelta(seconds=int(time.monotonic() - self._begin))
+        return f"{self._done} of {self._total} jobs done, elapsed {elapsed}"
 
     def _screen(self) -> Group:
         running = [*self._running.values()][:8]
