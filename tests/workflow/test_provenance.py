@@ -247,6 +247,18 @@ def test_prune_removes_what_no_plan_names_and_no_file_of_the_user(project: Proje
     assert {*project.files("data", "figures", "build/figures")} == kept
 
 
+def test_results_in_git_are_of_the_release_and_stay_after_a_change(project: Project) -> None:
+    released, other = project.one(FEW), project.one(AGEING)
+    commit(project)
+    project.run("git", "add", "--force", str(released))
+    substitute("cpp/observables/ageing.cpp", "#include", "int x;\n#include")(project)
+    lines = project.entry("status", status=1).splitlines()
+    assert [released.name in line for line in lines if "of the release" in line] == [True]
+    project.entry("prune")
+    assert released.exists()
+    assert not other.exists()
+
+
 def test_a_deposit_renders_elsewhere_without_simulation(project: Project, tmp_path: Path) -> None:
     """There is no program where it is unpacked, but their descriptions, and a file that git ignores."""
     write("data/points.csv")(project)

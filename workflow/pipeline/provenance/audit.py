@@ -12,6 +12,7 @@ import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -49,6 +50,13 @@ def hash_if_readable(path: str) -> str:
         return ""
 
 
+@cache
+def tracked() -> set[str]:
+    """Paths of the results in git, those of the release; none in a copy without it."""
+    command = ["git", "--git-dir=.git", "ls-files", "data"]
+    return {*subprocess.run(command, capture_output=True, text=True, check=False).stdout.splitlines()}
+
+
 def fault_of_result(path: str, run: Run) -> Fault | None:
     """Fault of the result of a run. path: the planned one."""
     try:
@@ -62,7 +70,9 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
         if not former:
             return Fault("missing", path, "it is not there")
         differing, nearest = min(former, key=lambda pair: len(pair[0]))
-        return Fault("stale", nearest, ", ".join(differing))
+        return Fault(
+            "stale", nearest, ", ".join(differing) + "; it is of the release" * (nearest in tracked())
+        )
     return None
 
 

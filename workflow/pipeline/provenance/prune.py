@@ -6,7 +6,6 @@ files, the results of the release, stay.
 
 import argparse
 import re
-import subprocess
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -14,6 +13,7 @@ from pathlib import Path
 from workflow.lib.identity import IDENTITY, stated
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import Panel, report_stem, runs_of, stem_of
+from workflow.pipeline.provenance.audit import tracked
 from workflow.pipeline.publish import FIGURES, RENDERED
 
 GIVEN = re.compile(
@@ -32,12 +32,6 @@ def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
         given = GIVEN.fullmatch(str(path))
         if given and (given[1] not in planned or given[3] == ".refused"):
             yield path
-
-
-def tracked() -> set[str]:
-    """Results in git; none in a copy without it."""
-    command = ["git", "--git-dir=.git", "ls-files", "data"]
-    return {*subprocess.run(command, capture_output=True, text=True, check=False).stdout.splitlines()}
 
 
 def main(options: argparse.Namespace) -> None:
