@@ -38,12 +38,13 @@ RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
 RENDERING = f"{RENDERED}/{{quality}}/{{panel}}.{{identity}}"  # stem of the files of a panel
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
 QUALITIES = ("smoke", "standard", "paper", "deep")
+RELEASE = "paper"  # its quality
+NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which reports of other qualities state
 REPORT_SOURCES = (
     "workflow/claims",
     "workflow/report",
     "workflow/pipeline",
     "data/claims.csv",
-    "docs/gallery/numbers.csv",  # of the release, where there is one
     *SHARED,
 )
 OVERRIDES: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
@@ -236,7 +237,8 @@ def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> l
 
 def report_stem(plan: dict[str, Panel], quality: str) -> str:
     """Path of the report in the store, without suffix. Raises OSError."""
-    sources = {path: content_hash(path) for path in REPORT_SOURCES if (ROOT / path).exists()}
+    release = [] if quality == RELEASE else [NUMBERS]
+    sources = {path: content_hash(path) for path in (*REPORT_SOURCES, *release) if (ROOT / path).exists()}
     present = identity([stem_of(plan, name, quality) for name in plan], sources)
     return RENDERING.format(quality=quality, panel="report", identity=present)
 

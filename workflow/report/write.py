@@ -23,7 +23,7 @@ from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.cost import cpu_seconds
-from workflow.pipeline.plan import Selection, runs_of, stem_of
+from workflow.pipeline.plan import NUMBERS, RELEASE, Selection, runs_of, stem_of
 from workflow.pipeline.publish import read_record
 from workflow.report import typeset
 
@@ -44,7 +44,7 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
         keep_trailing_newline=True,
     )
     environment.filters["typeset"] = typeset.typeset
-    found = {} if release else of_release(data.root)
+    found = {} if release or data.quality == RELEASE else of_release(data.root)
     rows = [shown(judgement) for judgement in judgements]
     outcomes = {(row["numbers"], row["kind"]): row["outcome"] for row in rows}
     for row in rows:
@@ -85,7 +85,7 @@ def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
 def of_release(root: Path) -> dict[tuple[str, str], tuple[str, str]]:
     """Verdict and range of the numbers of the release, by claim and kind; empty without a release."""
     try:
-        table = pd.read_csv(root / GALLERY / "numbers.csv")
+        table = pd.read_csv(root / NUMBERS)
         found = {}
         for key, part in table.groupby(["claim", "kind", "claim_verdict"], sort=False):
             claim, kind, verdict = map(str, key)
@@ -163,7 +163,7 @@ def write(quality: str, output: Path | None, root: Path = ROOT) -> None:
         folder / f"{name}.png": small(root / f"{stem_of(data.plan, name, quality)}.png") for name in data.plan
     }
     page = {folder / "README.md": rendered(judgements, data, release=True)}
-    write_together(pictures | page | {folder / "numbers.csv": numbers_file(judgements)})
+    write_together(pictures | page | {root / NUMBERS: numbers_file(judgements)})
     for former in {*folder.glob("*.png")} - pictures.keys():
         former.unlink()
 
