@@ -63,7 +63,7 @@ def test_an_undecided_answer_says_so() -> None:
     data.plan = {}
     page = rendered(judged("undecided"), data, release=True).decode()
     assert page.count("Undecided at quality smoke: ") == 4
-    assert "release:" not in page
+    assert "at quality paper:" not in page
 
 
 def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> None:
@@ -73,9 +73,9 @@ def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> N
     data = Data("smoke", tmp_path)
     data.plan = {}
     page = rendered(judged("undecided"), data, release=False).decode()
-    assert page.count("The release: contradicted, 0.2500(20) to 0.5000(10).") == 4
-    assert page.count("(release: contradicted)") == len(read_claims(ROOT))
-    assert "release:" not in rendered(judged("reproduced"), data, release=False).decode()
+    assert page.count("At quality paper: contradicted, 0.2500(20) to 0.5000(10).") == 4
+    assert page.count("(at quality paper: contradicted)") == len(read_claims(ROOT))
+    assert "at quality paper:" not in rendered(judged("reproduced"), data, release=False).decode()
 
 
 def test_verdicts_with_other_bands() -> None:

@@ -130,9 +130,7 @@ def ageing(data: Data) -> list[Estimate]:
     expected = _estimate(paper, times)
     for decade in range(math.floor(math.log10(times[-1])) + 1):
         k = _first(times, 10.0**decade)
-        label = (
-            f"energy over eq. 14, minus 1, n = {paper.parameters['particles-per-cell']}, t = {times[k]:.3g}"
-        )
+        label = f"energy/(eq. 14) - 1, n = {paper.parameters['particles-per-cell']}, t = {times[k]:.3g}"
         numbers.append(estimate(paper, "scatterer_energy_mean", k, label).over(expected[k], 1))
     decades = few["decade_slope"].axes["decade"]
     first = _first(decades, 1.0)

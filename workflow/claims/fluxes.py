@@ -68,8 +68,7 @@ def jump_and_halves(data: Data) -> list[Estimate]:
     result = data.one("fig03", "paper")
     largest = float(result["flux_density"].mean.max())
     jumps = [
-        estimate(result, "jump", end, f"jump over max F, x = {half}").over(largest)
-        for end, half, _ in OUTGOING
+        estimate(result, "jump", end, f"jump/max F, x = {half}").over(largest) for end, half, _ in OUTGOING
     ]
     return [*jumps, *_departures(result)]
 
@@ -122,7 +121,7 @@ def deviations_central(data: Data) -> list[Estimate]:
     outer = np.flatnonzero((np.abs(momentum) > np.sqrt(temperature)) & (np.abs(momentum) < REACH))
     less = []
     for k in outer:
-        label = f"1 - |deviation at p = {momentum[k]:g}| over that at p = 0"
+        label = f"1 - |deviation at p = {momentum[k]:g}|/|that at p = 0|"
         both = [centre, Estimate("", abs(value[k]), error[k], degrees)]
         less.append(combination(both, [1 / centre.value, -1 / centre.value], label))
     half = 0.5 / abs(centre.value)
@@ -191,8 +190,7 @@ def jump_from_rates_only(data: Data) -> list[Estimate]:
     scale = float(equal["flux"].mean.max())
     missed = max(_extrapolation_errors(kinetic, equal["flux"])) / scale
     jumps = [
-        estimate(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
-        for bond, name in ENDS
+        estimate(equal, "jump", bond, f"jump/max F at ν_L = ν_R, {name}").over(scale) for bond, name in ENDS
     ]
     return [with_systematic(jump, [jump.value + missed]) for jump in jumps]
 

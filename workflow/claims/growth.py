@@ -18,6 +18,7 @@ from workflow.claims.data import (
     power,
 )
 from workflow.claims.verdict import Estimate, with_systematic
+from workflow.lib.caption import format_number
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
 from workflow.physics import setting
@@ -170,7 +171,7 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
 
 def _gas(ring: Result) -> str:
     gas = chain(ring)
-    return f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
+    return f"ζ = {format_number(gas.zeta)}, M = {format_number(gas.mass)}"
 
 
 def _last_time(ring: Result) -> float:

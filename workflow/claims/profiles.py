@@ -41,7 +41,7 @@ def temperatures_coincide(data: Data) -> list[Estimate]:
     numbers = []
     for result, name in _both(data):
         for k, local in enumerate(result["temperature_particle"].mean):
-            label = f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}"
+            label = f"T of scatterer/T of particles - 1 in cell {k + 1}, {name}"
             numbers.append(estimate(result, "temperature_difference", k, label).over(local))
     return numbers
 

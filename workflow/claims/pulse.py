@@ -35,8 +35,8 @@ def peaks_leave(data: Data) -> list[Estimate]:
     """The fraction of the energy in the five central cells at the last time, the odd part at the peak over the peak at every time, and d ln
     v/d ln t of the peaks between the first and the last pair of times, each over its bound."""
     result = data.one("fig09a", PAPERS_START)
-    share = estimate(result, "centre_share", -1, "fraction in the centre over 0.1")
-    slowing = replace(_slowing(result), label="d ln v/d ln t over 1/4")
+    share = estimate(result, "centre_share", -1, "fraction in the centre/0.1")
+    slowing = replace(_slowing(result), label="(d ln v/d ln t)/(1/4)")
     odd = [part.over(ODD) for part in _odd_parts(result)]
     return [share.over(LEFT), *odd, slowing.over(SPEED)]
 
@@ -47,7 +47,7 @@ def _odd_parts(result: Result) -> list[Estimate]:
     numbers = []
     for k in np.flatnonzero(np.isfinite(position)):
         nearest = int(np.abs(distance - position[k]).argmin())
-        label = f"odd part of the peak over 0.1, t = {times[k]:g}"
+        label = f"odd part of the peak/0.1, t = {times[k]:g}"
         numbers.append(estimate(result, "odd_part", (k, nearest), label).over(height[k]))
     return numbers
 

@@ -27,7 +27,13 @@ LOOKS = {
     "amplitude": ("v", style.GREEN, "$A$"),
     OCTAVE: ("D", style.ORANGE, r"$\beta$, last octave"),
 }  # marker, colour and symbol by quantity
-SYMBOLS = {"mu": "μ", "alpha": "α", "kappa": "κ", "amplitude": "A", OCTAVE: "β"}  # in the caption
+SYMBOLS = {
+    "mu": "μ",
+    "alpha": "α",
+    "kappa": "κ",
+    "amplitude": "the amplitude A of ⟨Q²⟩",
+    OCTAVE: "its last exponent β",
+}  # in the caption
 PLAIN = "_plain"  # suffix of estimates without control variates
 GAMMAS = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
 PAPER_POINTS = 4200
@@ -179,9 +185,9 @@ def draw(results: Sequence[Result]) -> Parts:
         f"{saved:.2g} for {SYMBOLS[name]}" for name in controlled if np.isfinite(saved := gain(sampled, name))
     ] or ["an unknown size"]
     caption = f"""
-        Control variates (full symbols) save factors of {listed(gains)} in the CPU time to a given error. (a) Lines show 1/√t. (b) Distances from
-        the most precise estimates are divided by their errors; the grey band is two errors. (c) Crosses mark κ whose test of stationarity fails.
-        (d) Fits begin at several times. (e) The paper solves the kinetic equation with {PAPER_POINTS} points."""
+        Control variates (full symbols) divide the CPU time to a given error by {listed(gains)}. (a) Lines show 1/√t. (b) Distances from
+        the most precise estimates are divided by their errors; grey: two errors. (c) Crosses: short relaxations, whose test of stationarity fails.
+        (d) A depends on the first time of the fit. (e) For the kinetic equation the paper has {PAPER_POINTS} points."""
     return figure, table.drop(columns="value"), caption
 
 

@@ -110,7 +110,7 @@ def caption(ageing: Sequence[Result], slopes: pd.DataFrame, spreading: pd.DataFr
     end = spreading.iloc[-1]
     return f"""
         A chain whose scatterers start at rest approaches equilibrium slowly ({parameters(ageing[:1], "cells", "sigma", *GAS)}): in the last decade of time
-        their energy changes by {growth} per unit of ln t. (a) Lines are a quasi-stationary estimate without fit. (b) The last slope at n = {paper} is
+        their energy grows by {growth} per unit of ln t. (a) Lines are a quasi-stationary estimate without fit. (b) The last slope at n = {paper} is
         {ratio} of this. (c) The exponent α ends at {format_with_error(end.value, end.error)}. {ERRORS}"""
 
 

@@ -100,7 +100,7 @@ def caption(weak: pd.DataFrame, results: Sequence[Result]) -> str:
     )
     return f"""
         At the fixed spacing λ = {spacing[DENSE]} and without particle current, the last exponent (c) of κ = −J_U N/(T_N − T_1) is {ends}, or {baths} with bath temperatures.
-        This κ is per cell; κλ is the usual conductivity. (a) T_R/T_L is {format_number(max(map(drive, results)))}. (b) Lines show rings until sound leaves the chain; the
+        (a) T_R/T_L is {format_number(max(map(drive, results)))}. (b) Lines are predicted from ⟨Q²⟩ of rings until sound has crossed the chain; the
         last ratio of κ_0 to them at λ = 1/N is {format_with_error(ratio, error)}. {ERRORS}"""
 
 

@@ -63,7 +63,7 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ =
         {setting.spacing(chain)[1]}, its height goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. The columns have two
-        spacings (unstated in the paper), the rows the paper's bins, logarithmic bins, and p_0 over λ/et. {ERRORS}"""
+        spacings (unstated in the paper), the rows the paper's bins, logarithmic bins with p and −p added, and p_0 over λ/(et), e = 2.718…. {ERRORS}"""
 
 
 @plots("paper unit-chain")

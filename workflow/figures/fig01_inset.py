@@ -76,10 +76,13 @@ def caption(results: Sequence[Result]) -> str:
     chain = results[0]
     shape = "straight" if straight(chain) else "curved"
     slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
+    fit = (
+        f"A line of slope {slope} is fitted in the shaded window" if straight(chain) else "No line is fitted"
+    )
     return f"""
         The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {setting.spacing(chain)[1]}, it
-        is {shape} in ln t. (a), (b) Straight lines are fitted in the shaded windows. (c), (d) The slope and the height of |p| n_t(p), equal in
-        filled chains, end at {slope} and {height}. {ERRORS}"""
+        is {shape} in ln t. (a) {fit}. (b) Another spacing. (c), (d) Slopes between neighbouring times are compared
+        with the height of |p| n_t(p), which they equal in filled chains and which ends at {height}. {ERRORS}"""
 
 
 @plots("paper unit-chain")
@@ -95,7 +98,7 @@ def draw(results: Sequence[Result]) -> Parts:
         draw_slopes(below, table, result)
         for axes in (above, below) if straight(result) else ():
             axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
-    rows[1, -1].legend(loc="upper left", handletextpad=0.2)
+    rows[1, 0].legend(loc="lower right", handletextpad=0.2)
     style.letter(*rows.flat)
     return figure, pd.concat(tables), caption(results)
 

@@ -34,8 +34,8 @@ def caption(results: Sequence[Result]) -> str:
     )
     return f"""
         The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell-length")}, {baths(results[0])}). Here the first
-        cell exceeds a line, fitted in the shaded half, by {excess}. (a) The density grows with time, as slow particles accumulate. (b) It is
-        divided by the lines. {ERRORS}"""
+        cell exceeds a line, fitted in the shaded half, by {excess}. (a) The density grows with time, as slow particles accumulate. (b)
+        Density divided by the lines. {ERRORS}"""
 
 
 @plots("deterministic rare")

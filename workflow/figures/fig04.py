@@ -4,6 +4,7 @@ Further panels show the distribution near p = 0, its deviation from mean field, 
 both ends if gamma = N. Mean field is the kinetic equation: that of the continuum at gamma = 1, that of N scatterers at gamma = N.
 """
 
+import math
 from collections.abc import Sequence
 from itertools import product
 
@@ -153,7 +154,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     equal = f", and {jumps_of(still)} at equal rates" if len(still) else ""
     return f"""
         The paper plots the flux F_N(p, x) behind both end scatterers and finds {claim} ({parameters([chain], "cells", "cell-length", "sigma")}, {baths(chain)}).
-        (a) to (c) F_N differs from the kinetic equation (black){neglected} by at most {float(f"{far:.1g}"):g} % of max F. (d) The jumps are
+        (a) to (c) F_N differs from the kinetic equation (black){neglected} by at most {math.ceil(10 * far) / 10:g} % of max F. (d) The jumps are
         {jumps_of(unequal)}{equal}. {ERRORS}"""
 
 
@@ -174,7 +175,7 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_jumps(panels["jump"], main)
     corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
     panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **corner)
-    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="mean field")
+    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="kinetic equation")
     figure.legend(*panels["near"].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
     return figure, table, caption(main, unequal, results)

@@ -100,7 +100,8 @@ def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
     return f"""
         The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
-        they are {exponents}. (b), (c) Ψ is multiplied by the paper's powers.{"".join(excess)} {ERRORS}"""
+        they are {exponents}, fitted in the shaded windows. (b), (c) Ψ is multiplied by the paper's powers; open symbols have large errors, triangles are above
+        the frame.{"".join(excess)} {ERRORS}"""
 
 
 @plots("all")
@@ -123,8 +124,9 @@ def draw(results: Sequence[Result]) -> Parts:
         mark_outside(strip, table, mark[1], power, 2 * typical)
         strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{power}\,\Psi$, $\sigma = {sigma:g}$")
     above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
-    for axes in (above, *strips):
-        axes.axvspan(cut(results[0]), max(table.tau.max() for table in tables), **style.WINDOW)
+    ends = [table.tau[~table.unsure].max() for table in tables]
+    for axes, end in zip((above, *strips), (max(ends), *ends), strict=True):
+        axes.axvspan(cut(results[0]), end, **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")
     return figure, pd.concat(tables), caption(results, tables)

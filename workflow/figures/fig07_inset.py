@@ -46,8 +46,14 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
+    """Plots a kind. Of several relaxation times all but the longest have open symbols."""
     look = LOOKS.get(name, style.points("P", style.BLACK, "white", label=name))
-    axes.errorbar(part.sigma, part.alpha, part.alpha_error, **look)
+    several = part.relaxation_time.nunique() > 1
+    for time, points in part.groupby("relaxation_time"):
+        own = {"label": f"{name}, $t_r = {time:g}$"} if several else {}
+        if several and time < part.relaxation_time.max():
+            own["markerfacecolor"] = "white"
+        axes.errorbar(points.sigma, points.alpha, points.alpha_error, **look | own)
 
 
 def extreme(part: pd.DataFrame, row: int) -> str:
@@ -73,8 +79,6 @@ def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     aged = [result for result in results if result.series == "aged"]
     shown = tabulate([result for result in results if result not in aged])
-    # Random directions: after the longest relaxation.
-    shown = shown.loc[~shown.duplicated(["kind", "sigma"], keep="last")]
     figure, (above, below) = style.stacked(2, 1, height=1.6)
     for name in dict.fromkeys([*LOOKS, *shown.kind]):
         for axes in (above, below) if name != PAPER else (above,):

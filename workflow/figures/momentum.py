@@ -121,7 +121,8 @@ def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFram
     return f"""
         Collisions that conserve momentum are compared with reversals, which do not (open symbols). (a) In chains with λ = {fixed}, κ({max(sizes)})/κ({min(sizes)})
         is {elastic} if collisions are elastic, {passed} with {100 * passing:g} % passing and {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings, the heat Q that passes
-        has ⟨Q²⟩ ∼ t^β (M = {format_number(gas.mass)}). (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}. {ERRORS}"""
+        has ⟨Q²⟩ ∼ t^β (M = {format_number(gas.mass)}). (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic, scaled with the smallest ε. The table also
+        has other gases and random directions. {ERRORS}"""
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:

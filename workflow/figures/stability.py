@@ -65,12 +65,12 @@ def draw_scales(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    longest, scales = table.loc[table.collisions.idxmax()], table[table.part.isin(SCALES)]
+    scales = table[table.part.isin(SCALES)]
     orders = np.log10(scales["cell-length"].max() / scales["cell-length"].min())
-    power = power_of_ten(int(np.log10(longest.collisions)))
+    power = power_of_ten(int(np.log10(table.collisions.max())))
     return f"""
-        Rounding errors change the conserved energy (full symbols) and momentum (open symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}):
-        after more than {power} collisions the energy has changed by {scientific(longest.energy_drift)} of itself. (a) The dashed line shows a square root. (b) Scatterers
+        In up to more than {power} collisions rounding errors change the conserved energy (full symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}) by at
+        most {scientific(table.energy_drift.max())} of itself, their momentum (open symbols) by {scientific(table.momentum_drift.max())}. (a) The dashed line shows a square root. (b) Scatterers
         become infinitely light or heavy towards σ = ±1. (c) The spacing covers {orders:.0f} orders of magnitude, at σ = {format_number(scales.sigma.iloc[0])}. {ERRORS}"""
 
 
