@@ -11,13 +11,13 @@ help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  SEED=7  REPLICAS=200  ERROR=0.005  JOBS=2  DRY=yes'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
-figures: setup  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
+figures: setup  ## Build, simulate and render the paper's figures: figures/QUALITY/*.pdf, .png, .svg, .csv
 panel: setup  ## One panel, PANEL=fig05
 report: setup  ## The paper's claims against the results: figures/QUALITY/report.html
 gallery: setup  ## The report of the release, docs/gallery, from the results at QUALITY
 audit: setup  ## Check every result and figure against sources, parameters and packages
 status: setup  ## Fresh, stale (why) or missing
-verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
+verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
 provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
 deposit: setup  ## Code, results and figures as one archive in build/deposit
 prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
