@@ -58,9 +58,9 @@ def named(values: Mapping[str, Any]) -> Callable[..., Any]:
 levels = 10 * np.cumprod([1, 1.1, 1.2, 1.3, 1.4])
 plateau = {"plateau": lambda run, t: levels if run.name == "unit-chain" else t}
 claim("filling.stationary_above_front", {"fig01": plateau}, [0.1, 0.2, 0.3, 0.4])
-slope = {"log_slope": named({"unit-chain": 1.25 * levels[-1], "paper": 1.0})}
+slope = {"log_slope": named({"unit-chain": 1.25 * levels[-1], "unit-spacing": 1.0})}
 claim("filling.grows_logarithmically", {"fig01": plateau | slope}, [0.25])
-exponents = {"unit-chain": -0.15, "paper": -0.2}
+exponents = {"unit-chain": -0.15, "unit-spacing": -0.2}
 claim("filling.front_falls", {"fig01": {"front_exponent": named(exponents)}}, [-0.15])
 
 # Profiles of 30 cells.

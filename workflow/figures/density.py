@@ -59,7 +59,7 @@ def draw_driven(axes: Axes, table: pd.DataFrame, spacing: dict[str, str]) -> Non
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
     guide = 0.6 * table.kappa.min() * (size / size[0]) ** (1 / 3)
     axes.plot(size, guide, **style.GUIDE)
-    axes.text(size[1], 0.9 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
+    axes.text(size[1], 0.7 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
     axes.set(ylabel=rf"$\kappa$, strong drive ({style.UNITS})")
     axes.legend(loc="upper left", handletextpad=0.2)
 

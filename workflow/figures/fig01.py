@@ -66,7 +66,7 @@ def caption(results: Sequence[Result]) -> str:
         spacings (unstated in the paper), the rows the paper's bins, logarithmic bins with p and −p added, and p_0 over λ/(et), e = 2.718…. {ERRORS}"""
 
 
-@plots("paper unit-chain")
+@plots("unit-spacing unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)

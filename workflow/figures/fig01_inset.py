@@ -85,7 +85,7 @@ def caption(results: Sequence[Result]) -> str:
         with the height of |p| n_t(p), which they equal in filled chains and which ends at {height}. {ERRORS}"""
 
 
-@plots("paper unit-chain")
+@plots("unit-spacing unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
     results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)

@@ -92,7 +92,10 @@ def draw(results: Sequence[Result]) -> Parts:
         axes.axvspan(*window, **style.WINDOW)
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2))
-    above.legend(loc="upper left", title=rf"$\sigma = {results[0].parameters['sigma']:g}$", alignment="left")
+    title = rf"$\sigma = {results[0].parameters['sigma']:g}$"
+    figure.legend(
+        *above.get_legend_handles_labels(), loc="outside upper left", ncols=2, title=title, alignment="left"
+    )
     return figure, pd.concat(tables), caption(random, results)
 
 

@@ -118,10 +118,12 @@ def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFram
     cases = (Case(0, 0), Case(passing, 0), Case(0, epsilon))
     fixed = chains.spacing[~chains.thinning].iloc[0]
     elastic, passed, broken = (growth(chains, case) for case in cases)
+    most = control[control.passing == control.passing.max()].dropna(subset="local_exponent").iloc[-1]
+    end = format_with_error(most.local_exponent - 1, most.local_exponent_error)
     return f"""
         Collisions that conserve momentum are compared with reversals, which do not (open symbols). (a) In chains with λ = {fixed}, κ({max(sizes)})/κ({min(sizes)})
         is {elastic} if collisions are elastic, {passed} with {100 * passing:g} % passing and {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings, the heat Q that passes
-        has ⟨Q²⟩ ∼ t^β (M = {format_number(gas.mass)}). (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic, scaled with the smallest ε. The table also
+        has ⟨Q²⟩ ∼ t^β (M = {format_number(gas.mass)}); with {100 * most.passing:g} % passing, β − 1 ends at {end}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic, scaled with the smallest ε. The table also
         has other gases and random directions. {ERRORS}"""
 
 
