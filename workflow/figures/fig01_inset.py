@@ -76,13 +76,11 @@ def caption(results: Sequence[Result]) -> str:
     chain = results[0]
     shape = "straight" if straight(chain) else "curved"
     slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
-    fit = (
-        f"A line of slope {slope} is fitted in the shaded window" if straight(chain) else "No line is fitted"
-    )
+    fit = f"The line has the slope {slope}" if straight(chain) else "No line is fitted"
     return f"""
         The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {setting.spacing(chain)[1]}, it
-        is {shape} in ln t. (a) {fit}. (b) Another spacing. (c), (d) Slopes between neighbouring times are compared
-        with the height of |p| n_t(p), which they equal in filled chains and which ends at {height}. {ERRORS}"""
+        is {shape} in ln t. (a) {fit}. (b) Another spacing. (c), (d) In
+        filled chains the slope equals the height of |p| n_t(p), {height} in the end. {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")

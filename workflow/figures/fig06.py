@@ -89,7 +89,9 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     mean, error, _ = mean_of(tail.density / exact, tail.density_error / exact)
     expected = 50 * np.pi / int(result.parameters["particles-per-cell"])
     excess = format_with_error(100 * (mean - 1), 100 * error)
-    return f" At σ = 0 its tail is {excess} % above n → ∞; momenta held by scatterers explain π/2n = {expected:.2g} %."
+    return (
+        f" At σ = 0 its tail is {excess} % above n → ∞; momenta held by scatterers explain {expected:.2g} %."
+    )
 
 
 def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
@@ -100,8 +102,7 @@ def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
     return f"""
         The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
-        they are {exponents}, fitted in the shaded windows. (b), (c) Ψ is multiplied by the paper's powers; open symbols have large errors, triangles are above
-        the frame.{"".join(excess)} {ERRORS}"""
+        they are {exponents} in the shaded windows.{"".join(excess)} {ERRORS}"""
 
 
 @plots("all")

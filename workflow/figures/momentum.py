@@ -113,7 +113,7 @@ def growth(chains: pd.DataFrame, case: Case) -> str:
 
 
 def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFrame) -> str:
-    sizes, gas = common_sizes(chains), control.iloc[0]
+    sizes = common_sizes(chains)
     passing, epsilon = (chains[name][chains[name] > 0].min() for name in ("passing", "epsilon"))
     cases = (Case(0, 0), Case(passing, 0), Case(0, epsilon))
     fixed = chains.spacing[~chains.thinning].iloc[0]
@@ -121,10 +121,10 @@ def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFram
     most = control[control.passing == control.passing.max()].dropna(subset="local_exponent").iloc[-1]
     end = format_with_error(most.local_exponent - 1, most.local_exponent_error)
     return f"""
-        Collisions that conserve momentum are compared with reversals, which do not (open symbols). (a) In chains with λ = {fixed}, κ({max(sizes)})/κ({min(sizes)})
-        is {elastic} if collisions are elastic, {passed} with {100 * passing:g} % passing and {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings, the heat Q that passes
-        has ⟨Q²⟩ ∼ t^β (M = {format_number(gas.mass)}); with {100 * most.passing:g} % passing, β − 1 ends at {end}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic, scaled with the smallest ε. The table also
-        has other gases and random directions. {ERRORS}"""
+        Open symbols show reversals, which break momentum. (a) In chains (λ = {fixed}) κ({max(sizes)})/κ({min(sizes)}) is
+        {elastic} for elastic collisions, {passed} with {100 * passing:g} % passing, {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings ⟨Q²⟩ ∼ t^β;
+        with {100 * most.passing:g} % passing β − 1 ends at {end}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic. The table
+        also has random directions. {ERRORS}"""
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:

@@ -69,7 +69,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     orders = np.log10(scales["cell-length"].max() / scales["cell-length"].min())
     power = power_of_ten(int(np.log10(table.collisions.max())))
     return f"""
-        In up to more than {power} collisions rounding errors change the conserved energy (full symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}) by at
+        In more than {power} collisions rounding errors change the conserved energy (full symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}) by at
         most {scientific(table.energy_drift.max())} of itself, their momentum (open symbols) by {scientific(table.momentum_drift.max())}. (a) The dashed line shows a square root. (b) Scatterers
         become infinitely light or heavy towards σ = ±1. (c) The spacing covers {orders:.0f} orders of magnitude, at σ = {format_number(scales.sigma.iloc[0])}. {ERRORS}"""
 
