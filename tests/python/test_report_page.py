@@ -58,6 +58,14 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, an
     assert len(lines) == 1 + len(NUMBERS) * claims
 
 
+def test_an_answer_with_several_quantities_labels_them() -> None:
+    """Of κ by size, and of the difference in chains and in rings. Detected mistake: the largest and the smallest value without labels."""
+    data = Data("smoke", ROOT)
+    data.plan = {}
+    page = rendered(judged("contradicted"), data, release=True).decode()
+    assert page.count("(first: 0.5000(10); second: 0.2500(20))") == 2
+
+
 def test_an_undecided_answer_says_so() -> None:
     data = Data("smoke", ROOT)
     data.plan = {}
