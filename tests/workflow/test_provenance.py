@@ -14,6 +14,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project
 from workflow.lib.load import digest, load, nodes_of
+from workflow.lib.save import reduced
 from workflow.pipeline.provenance.compare import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
@@ -152,6 +153,8 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
         "unmodified, fresh\npanel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n"
     )
     assert all(f"--seed {seed}" in printed for seed in seeds)
+    (tmp_path / "of the gallery.png").write_bytes(reduced(copy))
+    assert provenance(project, tmp_path / "of the gallery.png") == printed
     copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
     substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
@@ -184,7 +187,7 @@ def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
     assert "2 of 2 results agree with those of smoke" in project.entry("panel", "PANEL=mu", "REPLICAS=4")
     independent, shared = (project.entry("panel", "PANEL=mu", word) for word in ("SEED=7", "REPLICAS=8"))
     for printed in (independent, shared):
-        assert "2 of 2 results agree with those of smoke (p > 0.0001)\nLargest difference: " in printed
+        assert "2 of 2 results agree with those of smoke (p > 0.0001)\nLeast probable difference: " in printed
     assert ("shared" in independent, "shared" in shared) == (False, True)
     project.entry("panel", "PANEL=mu", "ERROR=0.5")
     assert (project.folder / "figures/smoke_error=0.5/mu.csv").read_text().splitlines()[-2:] == ["64"] * 2
@@ -196,6 +199,22 @@ def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
     project.entry("prune", "SEED=7")
     assert not former.exists()
     assert project.products() == before
+
+
+@pytest.mark.parametrize(("replicas", "status", "line"), [(4, 0, "Not judged"), (32, 1, "Different:")])
+def test_a_difference_is_judged_if_there_are_enough_replicas(
+    project: Project, replicas: int, status: int, line: str
+) -> None:
+    substitute("workflow/config/quality/smoke.yaml", "replicas: 4", f"replicas: {replicas}")(project)
+    for word in ("QUALITY=smoke", "SEED=7"):
+        project.entry("panel", "PANEL=mu", word)
+    (path,) = project.folder.glob("data/smoke_seed=7/mu/all_sigma=0.5.*.h5")
+    with h5py.File(path, "r+") as file:
+        file["results/mu/mean"][...] = 1000
+        file["provenance"].attrs["digest"] = digest(nodes_of(file))
+    printed = project.entry("panel", "PANEL=mu", "SEED=7", status=status)
+    assert "1 of 2 results agree" in printed
+    assert line in printed
 
 
 @pytest.mark.parametrize("seed", [1, 2])

@@ -16,11 +16,14 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from workflow.lib.files import write_together
 from workflow.lib.identity import ROOT, sha256, statement
 
 CREATOR = "lorentz-gas"
+WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
 RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
 
 
@@ -96,3 +99,18 @@ def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, metadata=metadata)
     return buffer.getvalue()
+
+
+def reduced(picture: Path) -> bytes:
+    """PNG for the gallery, with few colours, at most WIDTH wide, and the texts of the original."""
+    with Image.open(picture, formats=["PNG"]) as original:
+        texts = PngInfo()
+        for name, text in original.info.items():
+            if isinstance(name, str) and isinstance(text, str):
+                texts.add_text(name, text)
+        width = min(WIDTH, original.width)
+        size = (width, round(original.height * width / original.width))
+        scaled = original.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+        content = io.BytesIO()
+        scaled.quantize(COLORS, dither=Image.Dither.NONE).save(content, "PNG", optimize=True, pnginfo=texts)
+        return content.getvalue()

@@ -20,8 +20,8 @@ def expected(results: Iterable[str]) -> str:
     known = [former_cost(Path(path)) for path in results]
     costs = [cost for cost in known if cost is not None]
     if not costs:
-        return f"The CPU time of {len(known)} results is unknown, as there are no former ones"
-    return f"Former results of {len(costs)} of these {len(known)} runs took {sum(costs):.2g} CPU s"
+        return f"The CPU time of {len(known)} runs is unknown, as they have no former results"
+    return f"About {sum(costs):.0f} CPU s, from former results of {len(costs)} of these {len(known)} runs"
 
 
 def former_cost(result: Path) -> float | None:

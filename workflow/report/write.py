@@ -4,7 +4,6 @@ beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
 
 import argparse
 import base64
-import io
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,8 +11,6 @@ from typing import Any
 
 import jinja2
 import pandas as pd
-from PIL import Image
-from PIL.PngImagePlugin import PngInfo
 
 from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, changed, judge_all
@@ -21,6 +18,7 @@ from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.files import in_one_line, write_together
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
+from workflow.lib.save import reduced
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.cost import cpu_seconds
 from workflow.pipeline.plan import NUMBERS, RELEASE, Selection, runs_of, stem_of
@@ -30,7 +28,6 @@ from workflow.report import typeset
 GALLERY = "docs/gallery"
 SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
 MOST_NUMBERS = 12  # numbers of a claim on the page; of more, only the one that is closest to the band's edge or farthest outside
-WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
 
 
 def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> bytes:
@@ -136,21 +133,6 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
     return pd.DataFrame(lines).to_csv(index=False, float_format="%.6g").encode()
 
 
-def small(picture: Path) -> bytes:
-    """PNG with few colours, at most WIDTH wide, and the texts of the original."""
-    with Image.open(picture, formats=["PNG"]) as original:
-        texts = PngInfo()
-        for name, text in original.info.items():
-            if isinstance(name, str) and isinstance(text, str):
-                texts.add_text(name, text)
-        width = min(WIDTH, original.width)
-        size = (width, round(original.height * width / original.width))
-        scaled = original.convert("RGB").resize(size, Image.Resampling.LANCZOS)
-        content = io.BytesIO()
-        scaled.quantize(COLORS, dither=Image.Dither.NONE).save(content, "PNG", optimize=True, pnginfo=texts)
-        return content.getvalue()
-
-
 def write(quality: str, output: Path | None, root: Path = ROOT) -> None:
     """Writes the report to the output, or the gallery without one. Raises ConfigurationError, FormatError, OSError."""
     data = Data(quality, root)
@@ -160,7 +142,8 @@ def write(quality: str, output: Path | None, root: Path = ROOT) -> None:
         return
     folder = root / GALLERY
     pictures = {
-        folder / f"{name}.png": small(root / f"{stem_of(data.plan, name, quality)}.png") for name in data.plan
+        folder / f"{name}.png": reduced(root / f"{stem_of(data.plan, name, quality)}.png")
+        for name in data.plan
     }
     page = {folder / "README.md": rendered(judgements, data, release=True)}
     write_together(pictures | page | {root / NUMBERS: numbers_file(judgements)})

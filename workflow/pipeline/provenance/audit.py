@@ -179,7 +179,14 @@ def fault_of_report(plan: dict[str, Panel], quality: str) -> Fault | None:
         return Fault(
             "stale", str(page), "other results, figures or sources; make report makes the present one"
         )
-    if page.read_bytes() != current.read_bytes():
+    content = page.read_bytes()
+    if any(content == former.read_bytes() for former in siblings(str(current)) if former != current):
+        return Fault(
+            "stale",
+            str(page),
+            "it is that of former results, figures or sources; make report writes the present one",
+        )
+    if content != current.read_bytes():
         return Fault("edited", str(page), f"it differs from {current}; make report writes it again")
     return None
 

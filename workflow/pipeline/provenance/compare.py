@@ -15,7 +15,7 @@ from workflow.pipeline.plan import Selection, data_path, load_plan, runs_of
 
 SIGNIFICANCE = 1e-4  # p-value of the largest difference in a result
 COMPUTED = 1e6  # degrees of freedom of a discretisation error
-FEW = 16  # degrees of freedom, below which the error of an error exceeds 18 %
+FEW = 16  # degrees of freedom, below which errors, especially of fitted positions, are too uncertain for a judgement
 
 
 def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -43,10 +43,15 @@ class Difference(NamedTuple):
     quantity: str
 
     def __str__(self) -> str:
-        few = (
-            ", as errors from few replicas are uncertain" if self.freedom < FEW and self.deviation > 4 else ""
-        )
-        return f"{self.deviation:.2g} standard errors ({self.quantity}), p = {self.p:.2g}{few}"
+        return f"{self.deviation:.2g} standard errors ({self.quantity}), p = {self.p:.2g}"
+
+
+class Comparison(NamedTuple):
+    """p-value of two results, its description, and whether there are enough replicas to judge it."""
+
+    p: float
+    text: str
+    judged: bool = True
 
 
 def largest_difference(one: Result, other: Result) -> Difference:
@@ -74,17 +79,17 @@ def equal_values(one: Result, other: Result) -> bool:
     )
 
 
-def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, str]:
-    """p-value and description of the difference between two results. Values of a rerun have to be equal. Raises FormatError, OSError."""
+def compared(former: Path | str, path: Path | str, rerun: bool) -> Comparison:
+    """Compares two results. Values of a rerun have to be equal. Raises FormatError, OSError."""
     if Path(former).read_bytes() == Path(path).read_bytes():
-        return 1.0, "equal bytes"
+        return Comparison(1.0, "equal bytes")
     one, other = load(former), load(path)
     if equal_values(one, other):
-        return 1.0, "equal values, by another compiler or other libraries"
+        return Comparison(1.0, "equal values, by another compiler or other libraries")
     largest = largest_difference(one, other)
     if not (rerun or largest.quantity):
         raise FormatError(f"{path} has no errors to compare with, as of one replica")
-    return 0.0 if rerun else largest.p, str(largest)
+    return Comparison(0.0 if rerun else largest.p, str(largest), rerun or largest.freedom >= FEW)
 
 
 def main(options: argparse.Namespace) -> int:
@@ -96,7 +101,7 @@ def main(options: argparse.Namespace) -> int:
         former = data_path(selection.quality, panel, plan[panel].run(run.name))
         if Path(former).is_file():
             try:
-                found.append((*compared(former, path, rerun=False), path))
+                found.append((compared(former, path, rerun=False), path))
             except FormatError as error:
                 excluded.append(str(error))
     if excluded:
@@ -105,13 +110,17 @@ def main(options: argparse.Namespace) -> int:
         if not excluded:
             print(f"There are no results of {selection.quality} to compare with")
         return 0
-    differing = [f"  {path}: {text}" for p, text, path in found if p <= SIGNIFICANCE]
-    agreeing = len(found) - len(differing)
+    unlikely = [(one, f"  {path}: {one.text}") for one, path in found if one.p <= SIGNIFICANCE]
+    differing, few = ([line for one, line in unlikely if one.judged is judged] for judged in (True, False))
+    agreeing = len(found) - len(unlikely)
     print(
         f"{agreeing} of {len(found)} results agree with those of {selection.quality} (p > {SIGNIFICANCE:g})"
     )
-    print(f"Largest difference: {min(found)[1]}")
+    print(f"Least probable difference: {min(found)[0].text}")
     if selection.replicas and selection.seed is None:
         print("The first replicas are shared and not counted as independent: SEED=7 gives independent ones")
-    print(*differing, sep="\n", end="\n" * bool(differing))
+    if differing:
+        print("Different:", *differing, "Check what differs: make provenance FILE= of both results", sep="\n")
+    if few:
+        print("Not judged, as errors from few replicas are uncertain:", *few, sep="\n")
     return int(bool(differing))

@@ -1,7 +1,7 @@
 """Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
 
 The first line states whether it is unmodified, and fresh here. Exit status: 0 if the file is unmodified, 1 if it is edited or states
-nothing, 3 if its record is not here.
+nothing, 2 if there is no such file, 3 if its record is not here.
 """
 
 import argparse
@@ -65,7 +65,9 @@ def explain_result(path: Path) -> int:
 def explain_figure(path: Path) -> int:
     content = path.read_bytes()
     if not (statement := stated(content)):
-        print(f"{path} has no panel metadata: it is no file of a panel, or another program rewrote it")
+        print(
+            f"{path} has no panel metadata: it is no file of a panel, or another program rewrote it; make status checks the report"
+        )
         return 1
     panel, quality, identity = statement
     known = f"{RENDERED}/{quality}/{panel}.{identity}.json"
@@ -76,12 +78,18 @@ def explain_figure(path: Path) -> int:
         fresh = "stale: there is no such panel in paper.yaml"
     elif identity != named_identity(files.stem):
         fresh = f"stale: {files.changes(record['parents']) if record else 'of other sources or results'}"
-    edited = bool(record) and sha256(content) not in record["files"].values()
-    state = "edited" if edited else "unmodified" if record else f"no record of identity {identity} here"
-    print(f"{state}, {fresh}")
-    print_panel(panel, quality)
     if not record:
+        print(
+            f"not checked, {fresh}: the record of identity {identity} is not here; this command makes that of the present sources"
+        )
+        print_panel(panel, quality)
         return 3
+    edited = sha256(content) not in (
+        *record["files"].values(),
+        _of_reduced(f"{RENDERED}/{quality}/{panel}.{identity}.png"),
+    )
+    print(f"{'edited' if edited else 'unmodified'}, {fresh}")
+    print_panel(panel, quality)
     for parent in (parent for parent in record["parents"] if parent.endswith(".h5")):
         try:
             print_command(load_provenance(parent), f"{parent}: ")
@@ -92,8 +100,18 @@ def explain_figure(path: Path) -> int:
     return int(edited)
 
 
+def _of_reduced(picture: str) -> str:
+    """sha256 of the picture in the gallery; empty if the original is not here."""
+    from workflow.lib.save import reduced  # noqa: PLC0415  0.5 s, for matplotlib
+
+    return sha256(reduced(Path(picture))) if Path(picture).exists() else ""
+
+
 def main(options: argparse.Namespace) -> int:
     path = Path(options.file)
+    if not path.is_file():
+        print(f"{path} is not a file; give the path of a result, a figure or a copy")
+        return 2
     try:
         return (explain_result if path.read_bytes().startswith(HDF5) else explain_figure)(path)
     except FormatError as error:

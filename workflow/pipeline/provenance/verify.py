@@ -40,7 +40,7 @@ def main(options: argparse.Namespace) -> int:
         run, again = runs[path], BUILD / "again.h5"
         try:
             execute(run.program, run.options, again, "--overwrite", programs=BUILD / "bin")
-            p, text = compared(path, again, rerun=True)
+            p, text, _ = compared(path, again, rerun=True)
             differing += p == 0
         except (FormatError, ProgramError) as error:
             text, failed = str(error), failed + 1
