@@ -201,7 +201,7 @@ def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
     assert project.products() == before
 
 
-@pytest.mark.parametrize(("replicas", "status", "line"), [(4, 0, "Not judged"), (32, 1, "Different:")])
+@pytest.mark.parametrize(("replicas", "status", "line"), [(6, 0, "Not judged"), (32, 1, "Different:")])
 def test_a_difference_is_judged_if_there_are_enough_replicas(
     project: Project, replicas: int, status: int, line: str
 ) -> None:
