@@ -1,5 +1,6 @@
 """Report and gallery: complete, reproducible, self-contained."""
 
+import base64
 import csv
 import re
 import shutil
@@ -59,6 +60,8 @@ def test_the_report_is_complete_and_loads_nothing(smoke: Path, tmp_path: Path) -
     ids, links = ids_and_links(text)
     assert ids >= IDS
     assert text.count('src="data:image/svg+xml;base64,') == text.count("<img ") == len(PLAN)
+    pictures = [base64.b64decode(one) for one in re.findall(r'svg\+xml;base64,([^"]*)"', text)]
+    assert not any(b"<text" in picture for picture in pictures)  # outlines: browsers have no fonts of TeX
     assert re.findall(r"<script|<link|@import|url\(|javascript:", text) == []
     for link in links:
         inside = (

@@ -45,6 +45,12 @@ def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
     return [*messages, *(f"wide equation: {text}" for text in tab.evaluate(EQUATIONS))]
 
 
+def test_the_report_on_a_narrow_screen(smoke: Path, tab: Page) -> None:
+    tab.goto((smoke / "figures/smoke/report.html").as_uri())
+    assert tab.evaluate("document.documentElement.scrollWidth") <= NARROW
+    assert tab.evaluate("[...document.images].every(one => one.complete && one.naturalWidth > 0)")
+
+
 def test_every_page(site: Path, tab: Page) -> None:
     """Detected mistakes: an unescaped <template> in a docstring; a missing script; a table or a signature that is wider than the page; a wide
     equation that does not scroll."""
