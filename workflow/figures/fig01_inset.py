@@ -80,7 +80,7 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {setting.spacing(chain)[1]}, it
         is {shape} in ln t. (a) {fit}. (b) Another spacing. (c), (d) In
-        filled chains the slope equals the height of |p| n_t(p), {height} in the end. {ERRORS}"""
+        filled chains the slope equals the height of |p| n_t(|p|), {height} in (c). {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")

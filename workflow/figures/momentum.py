@@ -112,18 +112,28 @@ def growth(chains: pd.DataFrame, case: Case) -> str:
     return format_with_error(row.growth, row.growth_error)
 
 
+def last_exponent(control: pd.DataFrame, case: Case) -> str:
+    """beta - 1 of a case over the last octave."""
+    same = (np.abs(control.passing - case.passing) < 1e-6) & (control.epsilon == case.epsilon)
+    rows = control[same].dropna(subset="local_exponent")
+    if rows.empty:
+        return "(unknown)"
+    end = rows.iloc[-1]
+    return format_with_error(end.local_exponent - 1, end.local_exponent_error)
+
+
 def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFrame) -> str:
     sizes = common_sizes(chains)
-    passing, epsilon = (chains[name][chains[name] > 0].min() for name in ("passing", "epsilon"))
+    passing = chains.passing[chains.passing > 0].min()
+    found = chains.epsilon[chains.epsilon > 0]
+    epsilon = found.loc[(found - passing).abs().idxmin()]
     cases = (Case(0, 0), Case(passing, 0), Case(0, epsilon))
-    fixed = chains.spacing[~chains.thinning].iloc[0]
     elastic, passed, broken = (growth(chains, case) for case in cases)
-    most = control[control.passing == control.passing.max()].dropna(subset="local_exponent").iloc[-1]
-    end = format_with_error(most.local_exponent - 1, most.local_exponent_error)
+    ends = [last_exponent(control, case) for case in cases[1:]]
     return f"""
-        Open symbols show reversals, which break momentum. (a) In chains (λ = {fixed}) κ({max(sizes)})/κ({min(sizes)}) is
+        Open symbols show reversals, which break momentum. (a) In chains κ({max(sizes)})/κ({min(sizes)}) is
         {elastic} for elastic collisions, {passed} with {100 * passing:g} % passing, {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings ⟨Q²⟩ ∼ t^β;
-        with {100 * most.passing:g} % passing β − 1 ends at {end}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic. The table
+        for the last two β − 1 ends at {ends[0]} and {ends[1]}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic. The table
         also has random directions. {ERRORS}"""
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, format_number, parameters, power_of_ten, scientific
+from workflow.lib.caption import ERRORS, format_number, parameters, scientific
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import Result
 
@@ -67,9 +67,8 @@ def draw_scales(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     scales = table[table.part.isin(SCALES)]
     orders = np.log10(scales["cell-length"].max() / scales["cell-length"].min())
-    power = power_of_ten(int(np.log10(table.collisions.max())))
     return f"""
-        In more than {power} collisions rounding errors change the conserved energy (full symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}) by at
+        In up to {scientific(table.collisions.max())} collisions rounding errors change the conserved energy (full symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}) by at
         most {scientific(table.energy_drift.max())} of itself, their momentum (open symbols) by {scientific(table.momentum_drift.max())}. (a) The dashed line shows a square root. (b) Scatterers
         become infinitely light or heavy towards σ = ±1. (c) The spacing covers {orders:.0f} orders of magnitude, at σ = {format_number(scales.sigma.iloc[0])}. {ERRORS}"""
 
