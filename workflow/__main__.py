@@ -17,7 +17,6 @@ from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError, panel_names
-from workflow.pipeline.cost import expected
 from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.lock import lock_products
@@ -163,6 +162,8 @@ def make(target: str, options: argparse.Namespace) -> int:
     if options.dry:
         print("\n".join(missing) or "Nothing to be made")
         if results := [path for path in missing if path.endswith(".h5")]:
+            from workflow.pipeline.cost import expected  # noqa: PLC0415  0.3 s
+
             print(expected(results))
         return 0
     for panel in (options.plan[name] for name in options.panel.split() if options.plan[name].replaced):

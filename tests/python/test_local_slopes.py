@@ -78,7 +78,7 @@ def test_diffusion_is_compared_at_equal_scaled_times() -> None:
 
 
 def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:
-    """κ = AN^a with other A and a in every curve; 32 is their smallest common size."""
+    """κ = AN^a with other A and a in every curve; 16 is their smallest common size."""
 
     def kappa(run: Run) -> float:
         o = run.options
@@ -87,19 +87,22 @@ def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:
 
     data = Known(
         {panel: truth({"kappa": kappa, "stationary": 1}, 0.01) for panel in ("momentum", "density")},
-        "standard",
+        "paper",
     )
-    runs = [*data.of("momentum", "chain-passing", "chain-reversal"), *data.of("density", "dense")]
+    runs = [
+        *data.of("momentum", "chain-passing", "chain-passing-half", "chain-reversal"),
+        *data.of("density", "dense"),
+    ]
     table = momentum.tabulate(runs)
     np.testing.assert_allclose(
-        table.growth, (table.cells / 32) ** (0.3 - table.epsilon - 0.1 * (table.passing > 0))
+        table.growth, (table.cells / 16) ** (0.3 - table.epsilon - 0.1 * (table.passing > 0))
     )
     np.testing.assert_allclose(
-        table.growth_error / table.growth, np.where(table.cells == 32, 0, 0.01 * 2**0.5)
+        table.growth_error / table.growth, np.where(table.cells == 16, 0, 0.01 * 2**0.5)
     )
     broken = table[table.epsilon == 0.1]
-    assert [*broken.cells] == [16, 32, 64, 128]
-    assert {*table.passing} == {0, 0.1}
+    assert [*broken.cells] == [8, 16, 32, 64, 128, 256]
+    assert {*table.passing} == {0, 0.1, 0.5}
 
 
 def test_the_speed_of_sound_before_the_pulse() -> None:

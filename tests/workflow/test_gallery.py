@@ -10,11 +10,11 @@ from tests.python.conftest import ROOT
 from workflow.claims import data as claims_data
 from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
+from workflow.pipeline.plan import RELEASE as QUALITY
 from workflow.pipeline.plan import Run, load_plan, with_used
 from workflow.report import write
 
 GALLERY = ROOT / "docs/gallery"
-QUALITY = "paper"
 
 
 def released(_quality: str, panel: str, run: Run) -> str:

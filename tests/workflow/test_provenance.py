@@ -15,6 +15,7 @@ import pytest
 from tests.workflow.conftest import ROOT, Project
 from workflow.lib.load import digest, load, nodes_of
 from workflow.lib.save import reduced
+from workflow.pipeline.provenance import audit
 from workflow.pipeline.provenance.compare import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
@@ -139,6 +140,22 @@ def test_states(project: Project, case: str) -> None:
 def test_status_covers_the_report(project: Project) -> None:
     write("figures/smoke/report.html")(project)
     assert "stale: figures/smoke/report.html" in project.entry("status", status=1)
+
+
+def test_a_report_of_former_sources_is_stale_and_another_edited(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    store, page = tmp_path / "build/figures/smoke", tmp_path / "figures/smoke/report.html"
+    monkeypatch.setattr(audit, "report_stem", lambda *_: "build/figures/smoke/report.0123456789ab")
+    for folder in (store, page.parent):
+        folder.mkdir(parents=True)
+    for identity, content in (("0123456789ab", "present"), ("ba9876543210", "former")):
+        (store / f"report.{identity}.html").write_text(content)
+    for content, state in (("present", None), ("former", "stale"), ("mine", "edited")):
+        page.write_text(content)
+        fault = audit.fault_of_report({}, "smoke")
+        assert (fault and fault.state) == state
 
 
 def provenance(project: Project, file: Path, status: int = 0) -> str:

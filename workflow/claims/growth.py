@@ -141,7 +141,7 @@ def without_momentum(data: Data) -> list[Estimate]:
 def _disturbed(data: Data, passing: str, reversal: str) -> tuple[list[Result], list[Result]]:
     """Runs of both series in which DISTURBED is the probability of the disturbance. Raises MissingError without one."""
     runs = (
-        [run for run in data.of("momentum", passing) if abs(setting.passing(run) - DISTURBED) < 1e-6],
+        [run for run in data.of("momentum", passing) if setting.passing(run) == DISTURBED],
         data.of("momentum", reversal, reversal_probability=DISTURBED),
     )
     if not runs[0]:

@@ -5,7 +5,6 @@ The time is that of each run on the machine that made it, from the file of its c
 between machines. Control variates are used by programs where they can; the same runs also have the estimates without them.
 """
 
-import json
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
@@ -16,7 +15,7 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import listed
 from workflow.lib.figure import Parts, main, plots
-from workflow.lib.load import FormatError, Result
+from workflow.lib.load import FormatError, Result, cpu_seconds
 
 OCTAVE = "local_exponent"  # of the heat in rings; its last octave has the largest error
 STARTS = {"warm": ("o", style.BLACK), "cold": ("s", style.BLUE), "empty": ("^", style.VERMILLION)}
@@ -41,11 +40,11 @@ PAPER_POINTS = 4200
 
 def seconds(result: Result) -> float:
     """CPU time of a run. Raises FormatError if the file of its cost is missing."""
-    path = result.path.with_suffix(".cost.json")
-    try:
-        return float(json.loads(path.read_text())["cpu_seconds"])
-    except OSError as error:
-        raise FormatError(f"{path} is missing: remove {result.path} and make it again") from error
+    time = cpu_seconds(result.path)
+    if time is None:
+        path = result.path.with_suffix(".cost.json")
+        raise FormatError(f"{path} is missing or damaged: remove {result.path} and make it again")
+    return time
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -61,8 +61,8 @@ def caption(results: Sequence[Result]) -> str:
     chain = results[0]
     first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
-        The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). At λ = {setting.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns
-        differ in spacing (unstated there), rows show the paper's bins, bins of ln|p|, and p_0 over λ/et. {ERRORS}"""
+        The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). At λ =
+        {setting.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there), rows show the paper's bins, bins of ln|p|, and p_0 over λ/et. {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")

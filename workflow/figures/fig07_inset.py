@@ -77,8 +77,7 @@ def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
 @plots("all zero-momentum aged random")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
-    aged = [result for result in results if result.series == "aged"]
-    shown = tabulate([result for result in results if result not in aged])
+    shown = tabulate([result for result in results if result.series != "aged"])
     figure, (above, below) = style.stacked(2, 1, height=1.6)
     for name in dict.fromkeys([*LOOKS, *shown.kind]):
         for axes in (above, below) if name != PAPER else (above,):

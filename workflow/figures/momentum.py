@@ -105,17 +105,20 @@ def exponent(diffusions: pd.DataFrame) -> str:
     return fit_power(fitted.epsilon, fitted.diffusion, fitted.diffusion_error).text
 
 
+def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
+    return table[(table.passing == case.passing) & (table.epsilon == case.epsilon)]
+
+
 def growth(chains: pd.DataFrame, case: Case) -> str:
     """kappa of a case at the largest size that all curves have, over that at the smallest."""
-    same = (chains.passing == case.passing) & (chains.epsilon == case.epsilon) & ~chains.thinning
-    (row,) = chains[same & (chains.cells == max(common_sizes(chains)))].itertuples()
+    fixed = of_case(chains[~chains.thinning], case)
+    (row,) = fixed[fixed.cells == max(common_sizes(chains))].itertuples()
     return format_with_error(row.growth, row.growth_error)
 
 
 def last_exponent(control: pd.DataFrame, case: Case) -> str:
     """beta - 1 of a case over the last octave."""
-    same = (np.abs(control.passing - case.passing) < 1e-6) & (control.epsilon == case.epsilon)
-    rows = control[same].dropna(subset="local_exponent")
+    rows = of_case(control, case).dropna(subset="local_exponent")
     if rows.empty:
         return "(unknown)"
     end = rows.iloc[-1]
@@ -160,7 +163,7 @@ def draw_rings(
         against_time.errorbar(part.middle, part.local_exponent - 1, part.local_exponent_error, **points)
         if epsilon:
             collapsed.errorbar(*collapse(part, epsilon, unit), **points)
-    elastic = control[(control.passing == 0) & (control.epsilon == 0)]
+    elastic = of_case(control, Case(0, 0))
     x, y, _ = collapse(elastic, control.epsilon[control.epsilon > 0].min(), unit)
     collapsed.plot(x, y, color=CONSERVED[0][1], zorder=1)
     style.guide_at(against_time, 0, "0")

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import re
 from collections.abc import Iterable
 from functools import cache
@@ -42,6 +43,12 @@ def named_identity(path: Path | str) -> str:
     """Identity in the name of a file or of a stem, NAME.IDENTITY; empty for other names."""
     named = re.search(rf"\.({IDENTITY})(\.\w+)?$", str(path))
     return named[1] if named else ""
+
+
+def siblings(path: Path | str) -> list[Path]:
+    """Files that differ from a path at most in the identity, the newest first."""
+    pattern = Path(path).name.replace(named_identity(path), DIGITS * "[0-9a-f]")
+    return sorted(Path(path).parent.glob(pattern), key=os.path.getmtime, reverse=True)
 
 
 def statement(panel: str, quality: str, name: str) -> str:

@@ -1,10 +1,11 @@
 """Reads result files (docs/format.md)."""
 
 import io
+import json
 import re
 import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
@@ -313,3 +314,10 @@ def _quantity(parts: dict[str, h5py.Dataset]) -> Quantity:
         descriptions=descriptions,
         control_variates=None if used is None else bool(used),
     )
+
+
+def cpu_seconds(result: Path) -> float | None:
+    """CPU time of a result, from the cost file beside it; None if that is missing or damaged."""
+    with suppress(OSError, ValueError, KeyError):
+        return float(json.loads(result.with_suffix(".cost.json").read_text())["cpu_seconds"])
+    return None

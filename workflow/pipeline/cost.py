@@ -1,17 +1,12 @@
-"""CPU time of results, from the cost files that the programs write (docs/format.md)."""
+"""CPU time of missing results, estimated from former ones."""
 
-import json
+import os
 import re
 from collections.abc import Iterable
-from contextlib import suppress
 from pathlib import Path
 
-
-def cpu_seconds(result: Path) -> float | None:
-    """CPU time of a result; None if its cost file is missing or damaged."""
-    with suppress(OSError, ValueError, KeyError):
-        return float(json.loads(result.with_suffix(".cost.json").read_text())["cpu_seconds"])
-    return None
+from workflow.lib.identity import siblings
+from workflow.lib.load import cpu_seconds
 
 
 def expected(results: Iterable[str]) -> str:
@@ -27,14 +22,12 @@ def expected(results: Iterable[str]) -> str:
 def former_cost(result: Path) -> float | None:
     """CPU time of the newest result of the same run and effort, with any seed and identity."""
     folder, panel = result.parent.parent, result.parent.name
-    effort = re.sub(r"_seed=\d+", "", folder.name)
-    run = result.stem.rpartition(".")[0]
-    found = [
-        path
-        for other in folder.parent.glob("*")
-        if re.sub(r"_seed=\d+", "", other.name) == effort
-        for path in (other / panel).glob("*.h5")
-        if path.stem.rpartition(".")[0] == run
-    ]
-    newest = max(found, key=lambda path: path.stat().st_mtime, default=result)
-    return cpu_seconds(newest)
+    effort = without_seed(folder.name)
+    folders = (other / panel for other in folder.parent.glob("*") if without_seed(other.name) == effort)
+    found = [former for other in folders for former in siblings(other / result.name)]
+    return cpu_seconds(max(found, key=os.path.getmtime, default=result))
+
+
+def without_seed(quality: str) -> str:
+    """Name of a quality and effort with any seed."""
+    return re.sub(r"_seed=\d+", "", quality)

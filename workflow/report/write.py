@@ -17,10 +17,9 @@ from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.files import in_one_line, write_together
 from workflow.lib.identity import ROOT
-from workflow.lib.load import FormatError
+from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import reduced
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.cost import cpu_seconds
 from workflow.pipeline.plan import NUMBERS, RELEASE, Selection, runs_of, stem_of
 from workflow.pipeline.publish import read_record
 from workflow.report import typeset

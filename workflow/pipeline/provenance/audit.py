@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from workflow.lib.files import in_one_line
-from workflow.lib.identity import DIGITS, named_identity, sha256, sources_of_panel, stated
+from workflow.lib.identity import named_identity, sha256, siblings, sources_of_panel, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import Panel, Run, data_of, rendering_command, report_stem, runs_of, stem_of
@@ -29,12 +29,6 @@ class Fault(NamedTuple):
     state: str  # stale, edited, missing or not checked
     path: str
     reason: str
-
-
-def siblings(path: str) -> list[Path]:
-    """Files that differ from a path at most in the identity, the newest first."""
-    pattern = Path(path).name.replace(named_identity(path), DIGITS * "[0-9a-f]")
-    return sorted(Path(path).parent.glob(pattern), key=os.path.getmtime, reverse=True)
 
 
 def options_of(words: str) -> list[str]:
@@ -175,20 +169,13 @@ def fault_of_report(plan: dict[str, Panel], quality: str) -> Fault | None:
     page, current = Path(FIGURES, quality, "report.html"), Path(f"{report_stem(plan, quality)}.html")
     if not page.exists():
         return None
-    if not current.exists():
-        return Fault(
-            "stale", str(page), "other results, figures or sources; make report makes the present one"
-        )
     content = page.read_bytes()
-    if any(content == former.read_bytes() for former in siblings(str(current)) if former != current):
-        return Fault(
-            "stale",
-            str(page),
-            "it is that of former results, figures or sources; make report writes the present one",
-        )
-    if content != current.read_bytes():
-        return Fault("edited", str(page), f"it differs from {current}; make report writes it again")
-    return None
+    if current.exists() and content == current.read_bytes():
+        return None
+    if not current.exists() or any(content == former.read_bytes() for former in siblings(current)):
+        reason = "other results, figures or sources; make report makes the present one"
+        return Fault("stale", str(page), reason)
+    return Fault("edited", str(page), f"it differs from {current}; make report writes it again")
 
 
 def main(options: argparse.Namespace) -> int:

@@ -78,18 +78,16 @@ def explain_figure(path: Path) -> int:
         fresh = "stale: there is no such panel in paper.yaml"
     elif identity != named_identity(files.stem):
         fresh = f"stale: {files.changes(record['parents']) if record else 'of other sources or results'}"
-    if not record:
-        print(
-            f"not checked, {fresh}: the record of identity {identity} is not here; this command makes that of the present sources"
-        )
-        print_panel(panel, quality)
-        return 3
-    edited = sha256(content) not in (
-        *record["files"].values(),
-        _of_reduced(f"{RENDERED}/{quality}/{panel}.{identity}.png"),
+    digest, picture = sha256(content), Path(RENDERED, quality, f"{panel}.{identity}.png")
+    edited = bool(record) and digest not in record["files"].values() and digest != _of_reduced(picture)
+    state = "edited" if edited else "unmodified" if record else "not checked"
+    unknown = (
+        f": the record of identity {identity} is not here; this command makes that of the present sources"
     )
-    print(f"{'edited' if edited else 'unmodified'}, {fresh}")
+    print(f"{state}, {fresh}{unknown * (not record)}")
     print_panel(panel, quality)
+    if not record:
+        return 3
     for parent in (parent for parent in record["parents"] if parent.endswith(".h5")):
         try:
             print_command(load_provenance(parent), f"{parent}: ")
@@ -100,11 +98,11 @@ def explain_figure(path: Path) -> int:
     return int(edited)
 
 
-def _of_reduced(picture: str) -> str:
+def _of_reduced(picture: Path) -> str:
     """sha256 of the picture in the gallery; empty if the original is not here."""
     from workflow.lib.save import reduced  # noqa: PLC0415  0.5 s, for matplotlib
 
-    return sha256(reduced(Path(picture))) if Path(picture).exists() else ""
+    return sha256(reduced(picture)) if picture.exists() else ""
 
 
 def main(options: argparse.Namespace) -> int:
