@@ -2,16 +2,14 @@
 
 import math
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from tests.python.claim_truths import EXACT, World, claim, named, rare
-from tests.python.known_results import Truth, plan
+from tests.python.known_results import Truth
 from workflow.physics.closed import quasi_stationary
-from workflow.physics.peaks import stable_densities
-from workflow.pipeline.plan import Run
+from workflow.pipeline.plan import Run, load_plan
 
 
 def law(run: Run) -> float:
@@ -59,31 +57,9 @@ def pulse(panel: str, **given: Any) -> World:
     return {panel: {**shape, "peak_speed": 300, "odd_part": 0, **given}}
 
 
-def heat_peak(order: float, narrow: float | None = None) -> Callable[..., np.ndarray]:
-    """Heat peak: a stable law about the central cell, about 7 cells wide at t = 256. Earlier peaks have the order `narrow`. The area differs
-    between runs. Runs that are meant for sound have a constant profile."""
-
-    def profile(run: Run, t: np.ndarray, _cell: np.ndarray) -> np.ndarray:
-        if run.series != "heat":
-            return np.ones_like(t)
-        area = 0.1 + 0.01 * int(run.name.rpartition("=")[2])
-        return area * stable_peaks(run.options["times"], run.options["cells"], order, narrow or order)
-
-    return profile
-
-
-@cache
-def stable_peaks(times: str, cells: int, order: float, narrow: float) -> np.ndarray:
-    """Profiles of heat_peak() of unit area [time, cell]."""
-    t, cell = np.meshgrid(np.array(times.split(","), float), np.arange(cells), indexing="ij")
-    width = 0.25 * t**0.6
-    densities = stable_densities().ev(abs(cell - cells // 2) / width, np.where(t < 200, narrow, order))
-    return np.asarray(densities / width)
-
-
 def of_runs(panel: str, value: Callable[[Run], float], chosen: Callable[[Run], bool]) -> list[float]:
     """Values of the runs of a panel that satisfy a condition."""
-    return [value(run) for run in plan("paper")[panel].runs if chosen(run)]
+    return [value(run) for run in load_plan("paper")[panel].runs if chosen(run)]
 
 
 # Persistence: the law plus a shift that depends on sigma and is twice as large in the dense chain.
@@ -146,7 +122,7 @@ def slopes(run: Run, decade: np.ndarray) -> np.ndarray:
     return found if run.name == "few" else 7 * found
 
 
-few = next(run for run in plan("paper")["ageing"].runs if run.name == "few")
+few = next(run for run in load_plan("paper")["ageing"].runs if run.name == "few")
 first, last = (np.diff(estimate(few, np.array(ends)))[0] for ends in ((1, 10), (1e5, 1e6)))
 found = [0.1] * 4 + [3 / 40 - last / first]
 claim("closed.ageing", {"ageing": {"scatterer_energy_mean": energies, "decade_slope": slopes}}, found)
@@ -273,15 +249,6 @@ def damped(panel: str, rest: float, **others: Any) -> World:
 
 claim("pulse.damping", damped("fig09a", 0.64), [(0.64, 0.04 + 0.02)])
 claim("pulse.damping_rare", damped("fig09b", 1.5), [(1.5, 0.02)])
-sounds = {"light": 0.9, "light-long": 0.8, "dense": 0.7, "dense-long": 0.55}
-sound = {
-    "damping_exponent": lambda run: sounds.get(run.name, 3),
-    "damping_exponent_from": lambda run, _: later(sounds.get(run.name, 3))(run, 0),
-    "peak": 1,
-}
-claim(
-    "pulse.damping_of_sound", {"peaks": sound}, [(0.8, 0.03)]
-)  # the first of the longest records, which have 8 times
 
 # 2 - 1/xi with xi = 0.66 and 0.9, and the exponents of kappa over the largest sizes; at gamma = N kappa is an exact power.
 kappa_n = {
@@ -295,6 +262,3 @@ found = [
     for xi, fits, (value, bound) in ((0.66, 0.04, (0.2, 0)), (0.9, 0.02, rare_exponent))
 ]
 claim("pulse.relation_of_moving_peaks", linked, found)
-# Heat peaks have the order 1.7, but 1.3 while they are less than 6 cells wide.
-central = {"peaks": {"heat_correlation": heat_peak(1.7, 1.3)}, "density": response}
-claim("pulse.relation_of_central_peak", central, [2 - 1.7 - 0.3] * 3, heat_correlation=0.03, **ends)

@@ -13,7 +13,7 @@ from tests.python.conftest import ROOT
 from workflow.claims.data import Data, MissingError
 from workflow.lib.load import Quantity, Result
 from workflow.pipeline.described import described
-from workflow.pipeline.plan import Panel, Run, data_path, load_plan
+from workflow.pipeline.plan import Run, data_path, load_plan
 
 DEFAULTS = {
     "cells": "continuum",
@@ -26,8 +26,6 @@ Fill = Callable[[Run], Mapping[str, Quantity]]
 # True value by quantity: a number, or a function of the run and of the coordinates along each axis.
 Truth = Mapping[str, Any]
 
-EQUAL = 8  # of the equal runs of the heat peak; fits to all take long
-
 
 @cache
 def axes_of(program: str) -> dict[str, tuple[str, ...]]:
@@ -36,22 +34,12 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
     return {quantity["name"]: tuple(axis["name"] for axis in quantity["axes"]) for quantity in quantities}
 
 
-@cache
-def plan(quality: str) -> dict[str, Panel]:
-    """The plan, with the first EQUAL runs of the heat peak."""
-    panels = load_plan(quality)
-    runs = panels["peaks"].runs
-    omitted = [run for run in runs if run.series == "heat"][EQUAL:]
-    kept = tuple(run for run in runs if run not in omitted)
-    return panels | {"peaks": replace(panels["peaks"], runs=kept)}
-
-
 class Known(Data):
     """Data in which every run of some panels has the result that the function of its panel returns; other panels have no results."""
 
     def __init__(self, fills: Mapping[str, Fill], quality: str = "paper") -> None:
         self.quality, self.root, self.fills = quality, ROOT, fills
-        self.plan: dict[str, Panel] = plan(quality)
+        self.plan = load_plan(quality)
         self.loaded = {}
 
     def _load(self, panel: str, run: Run) -> Result:

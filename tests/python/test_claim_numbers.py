@@ -16,12 +16,11 @@ import tests.python.claim_truths_closed  # noqa: F401  # adds its cases
 from tests.python.claim_truths import CASES, Case
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, drawn, truth
-from workflow.claims import judge, pulse
+from workflow.claims import judge
 from workflow.claims.verdict import Estimate
 from workflow.lib.load import Quantity
 
 TRIALS, LEVEL = 100, 1e-5
-HEAT_PEAK = "pulse.relation_of_central_peak"
 COMPUTED = "fluxes.jump_and_halves"  # without statistical error
 # Numbers whose errors are upper bounds: part of the label, and largest factor by which the error may be too large.
 BOUNDS = {"Kolmogorov's distance": 1.5, "1 - |deviation at p": 1.1}
@@ -60,21 +59,9 @@ def outside(z: np.ndarray, freedom: np.ndarray, widest: np.ndarray) -> np.ndarra
     )
 
 
-def cheaper(name: str, monkeypatch: pytest.MonkeyPatch) -> Case:
-    """A function in its world. The order of the heat peak (test_heat_peak.py) is exact and is not fitted again."""
-    case = CASES[name]
-    if name != HEAT_PEAK:
-        return case
-    orders = [replace(order, error=0.0) for order in pulse.heat_peak(data(case))]
-    monkeypatch.setattr(pulse, "heat_peak", lambda _: orders)
-    return replace(case, world={panel: given for panel, given in case.world.items() if panel != "peaks"})
-
-
 @pytest.mark.parametrize("name", [name for name in CASES if name != COMPUTED])
-def test_noisy_results_scatter_about_them_as_the_errors_predict(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case, random = cheaper(name, monkeypatch), np.random.default_rng(5)
+def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> None:
+    case, random = CASES[name], np.random.default_rng(5)
     known = data(case)
     numbers(name, known)  # loads the results
     draws = [numbers(name, drawn(known, random)) for _ in range(TRIALS)]
@@ -109,11 +96,9 @@ def changed(known: Known, path: str) -> Known:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A number depends on those runs whose change changes it. Exception: the heat peak, whose error is the spread over equal runs."""
-    known = data(cheaper(name, monkeypatch))
+def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: str) -> None:
+    """A number depends on those runs whose change changes it."""
+    known = data(CASES[name])
     plain = numbers(name, known)
     fewest = np.full(len(plain), np.inf)
     for path, run in list(known.loaded.items()):
@@ -122,6 +107,4 @@ def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(
         for k, number in enumerate(numbers(name, changed(known, path))):
             if abs(number.value - plain[k].value) > 1e-9 * abs(plain[k].value):
                 fewest[k] = min(fewest[k], run.replicas - 1)
-    if name == HEAT_PEAK:
-        fewest = np.minimum(fewest, pulse.heat_peak(known)[0].freedom)
     np.testing.assert_array_equal([shifted.freedom for shifted in plain], fewest)

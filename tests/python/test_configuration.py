@@ -19,7 +19,7 @@ PAPER = """panels:
       all: {sigma: [0, 0.5]}
       dense: {sigma: 0.5, zero-total-momentum: true}
   peak:
-    program: correlation
+    program: energy_pulse
     series:
       ring: {cells: 100, times: "200,600"}
   heat:

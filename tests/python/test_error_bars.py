@@ -17,7 +17,6 @@ CASES: list[tuple[str, str, dict]] = [
     ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
     ("ageing", "log_slope", {"sigma": 0.5, "decades": 2, "relaxation_time": 0}),
     ("heat_current", "amplitude", EQUILIBRIUM),
-    ("correlation", "peak", {"cells": 51, "observation_time": 32, "times": "4,8"}),
     ("steady_profile", "density_excess", OPEN | {"gamma": 1}),
     ("momentum_flux", "jump", OPEN | {"gamma": 0.3}),
     ("particle_count", "log_slope", {"cells": 4, "times": "1,2,4"}),

@@ -55,7 +55,7 @@ def cpp(tmp_path: Path) -> Path:
         ("statistics/fit.hpp", "int x;\n", {*PROGRAMS}),
         ("flags.cmake", "set(X -Ofast)\n", {*PROGRAMS}),
         ("CMakeLists.txt", "set(X)\n", set()),
-        ("observables/correlation/sound_peak.hpp", "int x;\n", {"correlation"}),
+        ("observables/heat_current/currents.hpp", "int x;\n", {"heat_current"}),
         ("boltzmann/solver.cpp", "int x;\n", {"boltzmann"}),
         ("observables/mine.cpp", "int main() {}\n", set()),
     ],

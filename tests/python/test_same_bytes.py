@@ -106,16 +106,13 @@ def test_on_arm64(name: str, arm64: Path, tmp_path: Path) -> None:
     here, there = load(tmp_path / "here.h5"), load(tmp_path / "there.h5")
     # GSL has fused multiply-adds there. Events of the kinetic equation are iterations.
     assert not run.replicated or here.provenance["events"] == there.provenance["events"]
-    tolerance = 1e-9 if run.program == "correlation" else 1e-12
+    tolerance = 1e-12
     for each, quantity in here.quantities.items():
-        # Densities of the kinetic equation are accurate relative to their maximum, the spread of its currents is a rounding error, and
-        # fits of peaks with few replicas end at other roundings.
+        # Densities of the kinetic equation are accurate relative to their maximum, and the spread of its currents is a rounding error.
         absolute: float | np.ndarray = 0
         if run.program == "boltzmann":
             largest = 1 if each == "current_spread" else np.nanmax(np.abs(quantity.mean), initial=0)
             absolute = tolerance * largest
-        elif run.program == "correlation":
-            absolute = 1e-3 * np.nan_to_num(quantity.error)
         assert np.isclose(there[each].mean, quantity.mean, tolerance, absolute, equal_nan=True).all(), each
 
 

@@ -19,7 +19,6 @@ from workflow.pipeline.program import execute
 
 CLOSED = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 PULSE = {"cells": 41, "particles-per-cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
-SOUND = {"cells": 120, "observation-time": 256, "times": "4,8,16,32", "replicas": 8}
 EQUILIBRIUM = {"cells": 20, "observation-time": 8, "times": "0.5,1,2,4", "fit-from": 1, "replicas": 8}
 OPEN = {"cells": 4, "cell-length": 0.25, "relaxation-time": 0.5, "observation-time": 4, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
@@ -33,7 +32,6 @@ CASES = {
     "displacement, random": ("displacement", CLOSED | {"rule": "random-direction"}),
     "ageing": ("ageing", CLOSED),
     "ageing, rare": ("ageing", CLOSED | {"gamma": 0.5}),
-    "correlation": ("correlation", SOUND),
     "heat_current": ("heat_current", EQUILIBRIUM),
     "heat_current, random": ("heat_current", EQUILIBRIUM | {"rule": "random-direction"}),
     "energy_pulse": ("energy_pulse", PULSE),

@@ -12,18 +12,19 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from tests.python.known_results import plan
 from tests.python.scale import OTHER, ROUNDING, agree
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.load import NOT_REACHED, Quantity, Result, load
 from workflow.lib.units import UnitsError
-from workflow.pipeline.plan import data_of
+from workflow.pipeline.plan import data_of, load_plan
 from workflow.pipeline.results import load_panel
 
 SHIPPED = {path.stem for path in (ROOT / "docs/gallery").glob("*.png")}  # not those of the user
 PLAN = {
-    name: panel for name, panel in plan("smoke").items() if name in SHIPPED and (panel.runs or panel.uses)
+    name: panel
+    for name, panel in load_plan("smoke").items()
+    if name in SHIPPED and (panel.runs or panel.uses)
 }
 
 WORDS = 70  # of a caption, besides sentences on rules and doubts

@@ -1,7 +1,7 @@
 """Claims on the energy pulse (figs. 9 and 10), and on its relation to the conductivity.
 
-Literal statements are judged from the paper's start, scatterers at rest that have relaxed. Other starts, rings and pulses, and
-equilibrium, belong to the intended meaning.
+Literal statements are judged from the paper's start, scatterers at rest that have relaxed. Other starts, rings and pulses belong to the
+intended meaning.
 """
 
 from dataclasses import replace
@@ -9,24 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from workflow.claims.data import Data, MissingError, combination, estimate, log_slope
-from workflow.claims.growth import of_largest, without_particle_current
+from workflow.claims.growth import of_largest
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Result
-from workflow.physics.peaks import (
-    CENTRE,
-    Record,
-    determined,
-    heat_width,
-    jackknife_error,
-    stable_law,
-    stable_laws,
-)
-from workflow.physics.rings import chain
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
-SOUND = ("light", "light-long", "dense", "dense-long")  # series of panel peaks for the sound peaks
-HEAT = "heat"  # and for the heat peak
-WIDE = 6  # cells; narrower heat peaks are not fitted
 PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
 LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
 
@@ -97,13 +84,6 @@ def damping(data: Data) -> list[Estimate]:
     return [replace(fit, systematic=fit.systematic + PEAK_BIAS)]
 
 
-def damping_of_sound(data: Data) -> list[Estimate]:
-    """Damping exponent of the sound peak in equilibrium, of the longest record."""
-    rings = data.of("peaks", *SOUND)
-    longest = max(rings, key=lambda ring: float(ring["peak"].axes["time"][-1]))
-    return [_of_all_times(longest, f"sound peak in equilibrium, N = {longest.parameters['cells']}")]
-
-
 def damping_rare(data: Data) -> list[Estimate]:
     """Damping exponent at gamma = 1 from the paper's start."""
     return [_of_all_times(data.one("fig09b", PAPERS_START), "damping exponent")]
@@ -126,36 +106,3 @@ def relation_of_moving_peaks(data: Data) -> list[Estimate]:
         label = f"2 - 1/ξ minus exponent of κ, γ = {gamma}"
         excesses.append(combination([expected, of_largest(data, gamma)], [1, -1], label))
     return excesses
-
-
-def relation_of_central_peak(data: Data) -> list[Estimate]:
-    """2 - 1/xi minus the exponent of kappa_0, with the order 1/xi of the heat peak at the centre in equilibrium, at every time."""
-    kappa_0 = without_particle_current(data)
-    return [
-        combination([order, kappa_0], [-1, -1], f"2 - 1/ξ minus exponent of κ₀, {order.label}", -2)
-        for order in heat_peak(data)
-    ]
-
-
-def heat_peak(data: Data) -> list[Estimate]:
-    """Order 1/xi of the stable law fitted to the heat peak in equilibrium, at every time at which the peak is several cells wide. The errors are
-    those of a jackknife over equal runs, as neighbouring cells are correlated; the change without the central cells, in which slow
-    particles make a cusp, is a systematic error. Raises MissingError."""
-    runs = data.of("peaks", HEAT)
-    if len(runs) < 2:
-        raise MissingError("peaks has fewer than two runs of the heat peak")
-    gas, orders = chain(runs[0]), []
-    for k, time in enumerate(map(float, runs[0]["heat_correlation"].axes["time"])):
-        record = Record(runs, k, time, gas, chain(runs[0], time))
-        if heat_width(record) < WIDE * gas.cell_length:
-            continue
-        law, without_one = stable_laws(record)
-        if determined(law, without_one):
-            error = float(jackknife_error(without_one[:, -1]))
-            order = Estimate(f"t = {time:g}", float(law[-1]), error, len(runs) - 1)
-            profile = record.profiles("heat_correlation").mean(axis=0)
-            outer = stable_law(record, profile, omitted=CENTRE, start=law)
-            orders.append(with_systematic(order, [float(outer[-1])]))
-    if not orders:
-        raise MissingError("the profiles determine no order of the heat peak")
-    return orders

@@ -5,33 +5,17 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from workflow.lib import style
 from workflow.lib.load import Result
 from workflow.physics import setting
-from workflow.physics.mode_coupling import Chain, logarithm_at
+from workflow.physics.mode_coupling import Chain
 
 GAS = ["rule", "passing", "epsilon", "zeta", "mass"]  # columns that identify a gas
 
-# Marker and colour by ζ and M; the dense one has those of the open chain of the same gas (workflow/physics/conductivity.py).
-OF_GAS = {
-    (0.2, 0.111): ("v", style.GREEN),
-    (0.8, 0.333): ("o", style.VERMILLION),
-    (0.8, 3): ("s", style.ORANGE),
-    (1.6, 3): ("^", style.BLUE),
-}
 
-
-def look_of(zeta: float, mass: float) -> tuple[str, str]:
-    """Marker and colour of a gas, the same in every panel and at every quality."""
-    return OF_GAS.get((round(zeta, 3), round(mass, 3)), ("P", style.BLACK))
-
-
-def chain(result: Result, time: float = np.inf) -> Chain:
-    """The gas of a ring, with only those slow particles that move within a time."""
+def chain(result: Result) -> Chain:
+    """The gas of a ring."""
     temperature, length, sigma = (result.parameters[name] for name in ("temperature", "cell-length", "sigma"))
-    slow = logarithm_at(time, temperature, length) if np.isfinite(time) else np.inf
-    zeta = result.parameters["fugacity"] * length
-    return Chain(zeta, (1 + sigma) / (1 - sigma), temperature, length, slow)
+    return Chain(result.parameters["fugacity"] * length, (1 + sigma) / (1 - sigma), temperature, length)
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -2,7 +2,6 @@
 /// random numbers with the engine. Usage: reference_simulator NAME --option value ..., all options required.
 #include "reference/arguments.hpp"
 #include "reference/closed_chain.hpp"
-#include "reference/correlation.hpp"
 #include "reference/open_chain.hpp"
 #include "reference/pulse.hpp"
 
@@ -13,7 +12,6 @@ int main(int argc, char** argv) {
   if (name == "closed_chain") return ClosedChain{arguments}.run(), 0;
   if (name == "open_chain") return run_open_chain(arguments), 0;
   if (name == "pulse") return Pulse{arguments}.run(), 0;
-  if (name == "correlation") return run_correlation(arguments), 0;
   std::fprintf(stderr, "no simulator is named '%s'\n", name.c_str());
   return 2;
 }
