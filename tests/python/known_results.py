@@ -75,8 +75,6 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
         "distance": np.arange(1.0, cells // 2 + 1),
         "decade": starts,
-        "quantity": np.arange(4.0),
-        "other": np.arange(4.0),
         "window": np.sort([*starts, *(2 * starts)]),
     }
 
@@ -110,7 +108,7 @@ def drawn(known: Known, random: np.random.Generator) -> Known:
     def noisy(result: Result) -> Result:
         quantities = dict(result.quantities)
         for name, exact in result.quantities.items():
-            if exact.count is not None and name not in ("stationary", "correlation"):
+            if exact.count is not None and name != "stationary":
                 shape, freedom = exact.mean.shape, result.replicas - 1
                 mean = exact.mean + exact.error * random.standard_normal(shape)
                 error = exact.error * np.sqrt(random.chisquare(freedom, shape) / freedom)

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.python.claim_truths_closed import linear_response
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
@@ -64,13 +63,6 @@ def test_an_exponent_takes_two_stationary_sizes_one_of_which_is_large() -> None:
     assert number.value == pytest.approx(1)
     with pytest.raises(MissingError, match="stationary sizes"):
         growth.cube_root(of_sizes(float, (8, 16).__contains__))
-
-
-def test_the_last_octave_of_the_chains_without_particle_current() -> None:
-    """κ_0 ∼ √N up to 128 cells and N^0.2 beyond."""
-    response = linear_response(lambda cells: 128**0.5 * (cells / 128) ** (0.5 if cells < 128 else 0.2))
-    data = Known({"density": truth(response | {"stationary": 1}, 1e-6)})
-    assert growth.without_particle_current(data, last=2).value == pytest.approx(0.2, abs=1e-3)
 
 
 def test_errors_of_ratios_and_sums() -> None:

@@ -69,7 +69,7 @@ def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], ga
         assert score(result[name], 0) < 4, name
 
 
-@pytest.mark.parametrize("script", ["fig05", "fig03_inset", "density"])
+@pytest.mark.parametrize("script", ["fig05", "fig03_inset"])
 def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> None:
     draw = importlib.import_module(f"workflow.figures.{script}").draw
     with pytest.raises(

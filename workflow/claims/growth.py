@@ -12,17 +12,13 @@ from workflow.claims.data import (
     by_size,
     combination,
     estimate,
-    freedom,
     log_slope,
-    mean_slope,
     power,
 )
-from workflow.claims.verdict import Estimate, with_systematic
+from workflow.claims.verdict import Estimate
 from workflow.lib.caption import format_number
-from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
 from workflow.physics import setting
-from workflow.physics.response import tabulate
 from workflow.physics.rings import chain
 
 T = TypeVar("T")
@@ -32,14 +28,9 @@ LARGE = 16  # the largest sizes are those within this factor of the largest
 LONG = 128  # cells; in shorter chains the exponents over the largest sizes still change
 LATE = 64  # time in λ/√T from which the exponents of rings are judged: earlier ones still fall
 DISTURBED = 0.1  # fraction of the collisions that are replaced by a pass or followed by a reversal
-# Series: of fig. 8 by γ, rings with the paper's rule, and chains at the spacing that has a thermodynamic limit.
+# Series: of fig. 8 by γ, and rings with the paper's rule.
 SIZES: dict[str | int, tuple[str, ...]] = {"N": ("every", "every-large"), 1: ("rare", "rare-small")}
-ELASTIC = tuple(
-    f"{gas}{size}" for gas in ("light", "dense", "dilute", "sparse") for size in ("", "-long", "-longest")
-)
-FIXED_SPACING = tuple(
-    f"dense-{force}{size}" for force in ("temperature", "pressure") for size in ("", "-large")
-)
+ELASTIC = ("light", "light-long", "light-longest", "dense-longest", "dilute-longest", "sparse-longest")
 
 
 def linear(data: Data) -> list[Estimate]:
@@ -107,10 +98,8 @@ def superdiffusive(data: Data) -> list[Estimate]:
 
 
 def at_fixed_density(data: Data) -> list[Estimate]:
-    """Exponents of kappa at a density that does not depend on N: beta - 1 in rings, and those of kappa_0 between baths over all sizes and over
-    the last octave."""
-    rings = [_of_kappa(ring) for ring in _longest(data.of("momentum", *ELASTIC))]
-    return [*rings, without_particle_current(data), without_particle_current(data, last=2)]
+    """Exponents of kappa at a density that does not depend on N: beta - 1 in rings."""
+    return [_of_kappa(ring) for ring in _longest(data.of("momentum", *ELASTIC))]
 
 
 def without_momentum(data: Data) -> list[Estimate]:
@@ -177,20 +166,3 @@ def _gas(ring: Result) -> str:
 def _last_time(ring: Result) -> float:
     """Geometric middle of the last octave of time."""
     return _middles(ring)[-1]
-
-
-def without_particle_current(data: Data, last: int | None = None) -> Estimate:
-    """Exponent of kappa_0, the conductivity at J_n = 0 over the difference of the end scatterers' temperatures, at fixed spacing, over all
-    sizes or over the `last` largest. The exponents over the smaller and over the larger half bound the systematic error."""
-    planned = data.of("density", *FIXED_SPACING)
-    moving = {run.parameters["cells"] for run in planned if not run.usable}
-    runs = [run for run in planned if run.parameters["cells"] not in moving]
-    table = tabulate(runs) if runs else None
-    if table is None or len(table) < 2:
-        raise MissingError("fewer than two stationary sizes")
-    table = table.iloc[-last:] if last else table
-    values = [*zip(table.cells, table.kappa_0, table.kappa_0_error, strict=True)]
-    law, *parts = (fit_power(*np.array(part, float).T) for part in (values, *halves(values)))
-    label = f"d ln κ₀/d ln N at J_n = 0, N = {table.cells.min()} to {table.cells.max()}"
-    slope = Estimate(mean_slope(label, law), law.exponent, law.error, freedom(*runs))
-    return with_systematic(slope, [part.exponent for part in parts])

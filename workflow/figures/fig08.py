@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
@@ -18,12 +19,19 @@ from workflow.lib.figure import Parts, main, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
-from workflow.physics.growth import local_exponents
 
 BELOW = 0.7  # ratio of a guide to the lowest point
 GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's exponents by gamma
 LOOKS = {str(gamma): look for gamma, look in style.BY_GAMMA.items()}
 KAPPA = ("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
+
+
+def local_exponents(size: ArrayLike, value: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, ...]:
+    """Geometric means of neighbouring sizes, d ln value / d ln size between them, and its errors."""
+    size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
+    step, relative = np.diff(np.log(size)), error / value
+    slope = np.diff(np.log(value)) / step
+    return np.sqrt(size[1:] * size[:-1]), slope, np.hypot(relative[1:], relative[:-1]) / step
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:

@@ -1,9 +1,9 @@
 """Growth of heat transport with and without conserved momentum.
 
 Particles that pass a scatterer with the probability 1 - gamma/N disturb motion as reversals of the momentum of the scatterer in a fraction
-epsilon of the collisions do, but conserve momentum. Chains have a fixed spacing; those at the spacing 1/N are named. Q is the integral of
+epsilon of the collisions do, but conserve momentum. Chains have a fixed spacing. Q is the integral of
 J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28], and D = <Q²>/2Nt at a common
-epsilon t. The table also has rings of other gases, and with random directions.
+epsilon t. The table also has rings of other gases.
 """
 
 from collections.abc import Iterable, Sequence
@@ -21,9 +21,7 @@ from workflow.lib.fit import fit_power, format_with_error
 from workflow.lib.load import Result
 from workflow.physics import rings, setting
 
-CURVE = ["passing", "epsilon", "thinning"]  # columns that identify a curve of chains
-RULES = ("elastic", setting.REVERSAL)
-CHAINS = ("chain-", "dense")  # beginnings of the names of their series
+CURVE = ["passing", "epsilon"]  # columns that identify a curve of chains
 COMMON = 5  # εt, in λ/√T, at which D of different ε are compared
 LARGEST = 0.1  # ε of the fit to D; with more the decay ends before ⟨Q²⟩ follows a power law
 LATE = 8  # first time, in λ/√T, that is plotted against εt; before, particles fly between few collisions
@@ -58,8 +56,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows: list[dict[str, Any]] = []
     for result in results:
         row: dict[str, Any] = {"passing": setting.passing(result), "epsilon": setting.epsilon(result)}
-        row |= {"spacing": setting.spacing(result)[1], "thinning": result.series.endswith("thinning")}
-        row |= {"cells": int(result.parameters["cells"])}
+        row |= {"spacing": setting.spacing(result)[1], "cells": int(result.parameters["cells"])}
         rows.append(row | result.columns("kappa") | {"usable": result.usable})
     table = pd.DataFrame(rows).sort_values([*CURVE, "cells"], ignore_index=True)
     reference = (
@@ -111,7 +108,7 @@ def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
 
 def growth(chains: pd.DataFrame, case: Case) -> str:
     """kappa of a case at the largest size that all curves have, over that at the smallest."""
-    fixed = of_case(chains[~chains.thinning], case)
+    fixed = of_case(chains, case)
     (row,) = fixed[fixed.cells == max(common_sizes(chains))].itertuples()
     return format_with_error(row.growth, row.growth_error)
 
@@ -136,16 +133,14 @@ def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFram
     return f"""
         Open symbols show reversals, which break momentum. (a) In chains κ({max(sizes)})/κ({min(sizes)}) is
         {elastic} for elastic collisions, {passed} with {100 * passing:g} % passing, {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings ⟨Q²⟩ ∼ t^β;
-        for the last two β − 1 ends at {ends[0]} and {ends[1]}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic. The table
-        also has random directions. {ERRORS}"""
+        for the last two β − 1 ends at {ends[0]} and {ends[1]}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic.
+        {ERRORS}"""
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
-    for (passing, epsilon, thinning), part in chains.groupby(CURVE):
+    for (passing, epsilon), part in chains.groupby(CURVE):
         case = Case(passing, epsilon)
         points = look[case] | {"linestyle": "-", "linewidth": 0.6, "label": case.label}
-        if thinning:
-            points |= {"marker": "d", "linestyle": "dotted", "label": rf"{case.label}, $\lambda = 1/N$"}
         axes.errorbar(part.cells, part.growth, part.growth_error, **points)
     style.cross_out(axes, chains.cells, chains.growth, ~chains.usable)
     style.against_size(axes)
@@ -173,26 +168,17 @@ def draw_rings(
     collapsed.set_ylabel(rf"$\epsilon^{{1/3}} \langle Q^2 \rangle/2Nt$ ({style.UNITS})")
 
 
-GASES = "light light-long light-longest dense dense-long dense-longest dilute dilute-long dilute-longest sparse-longest "
-CONTROLS = (
-    "passing passing-half reversal reversal-others reversal-rare random "
-    "chain-passing chain-passing-half chain-reversal chain-reversal-rare chain-reversal-thinning dense-large"
-)
+RINGS = "light light-long light-longest dense-longest dilute-longest sparse-longest passing reversal reversal-others reversal-rare "
+CHAINS = "chain-elastic chain-passing chain-reversal chain-reversal-rare"
 
 
-@plots(GASES + CONTROLS)
+@plots(RINGS + CHAINS)
 def draw(results: Sequence[Result]) -> Parts:
     shown = [result for result in results if result.provenance["program"] == "heat_current"]
-    # `density` has another series of the name `dilute`.
-    spaced = [
-        result
-        for result in results
-        if result.provenance["program"] == "conductivity" and result.series.startswith(CHAINS)
-    ]
-    chains = tabulate(spaced)
+    chains = tabulate([result for result in results if result not in shown])
     table = rings.tabulate(shown)
     broken = table[table.epsilon > 0].iloc[0]
-    control = table[(table.zeta == broken.zeta) & (table.mass == broken.mass) & table.rule.isin(RULES)]
+    control = table[(table.zeta == broken.zeta) & (table.mass == broken.mass)]
     unit = float(np.sqrt(shown[0].parameters["temperature"]) / shown[0].parameters["cell-length"])
     diffusions = diffusion(control, unit)
     look = looks(
@@ -207,7 +193,7 @@ def draw(results: Sequence[Result]) -> Parts:
     labels = sorted(handles, key=lambda text: order.index(text) if text in order else len(order))
     figure.legend([handles[text] for text in labels], labels, loc="outside upper center", ncols=4)
     style.letter(*panels)
-    whole = pd.concat([chains.drop(columns="thinning"), table, diffusions])
+    whole = pd.concat([chains, table, diffusions])
     return figure, whole, caption(chains, control, diffusions)
 
 
