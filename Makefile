@@ -19,23 +19,20 @@ audit: setup  ## Check every result and figure against sources, parameters and p
 status: setup  ## Fresh, stale (why) or missing
 verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
 provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
-deposit: setup  ## Code, results and figures as one archive in build/deposit
 prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
 build: setup  ## The programs, in build/bin
-figures panel report gallery audit status verify provenance deposit prune build:
+figures panel report gallery audit status verify provenance prune build:
 	$(ENTRY) $@  # which reads PANEL=, QUALITY= and the other options from MAKEFLAGS
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/pipeline/environment/setup.sh $(PROFILE)
 setup-dev:
 	bash workflow/pipeline/environment/setup.sh dev
-setup-docs:
-	bash workflow/pipeline/environment/setup.sh dev docs
 test: setup-dev build  ## Tests; make test-long: also those that take many minutes
 	bash workflow/pipeline/environment/test.sh -m 'not long'
 test-long: setup-dev build
-	bash workflow/pipeline/environment/setup.sh dev docs slurm
+	bash workflow/pipeline/environment/setup.sh dev slurm
 	bash workflow/pipeline/environment/test.sh
-check: setup-dev build docs  ## Format, lint, types, documentation
+check: setup-dev build  ## Format, lint, types
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format --dry-run --Werror
 	$(DEV)/ruff check --quiet . && $(DEV)/ruff format --quiet --check . && $(DEV)/mypy --no-error-summary
 	$(DEV)/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/pipeline/rules
@@ -47,11 +44,6 @@ format: setup-dev  ## Format every source in place
 bench: setup-dev build  ## Cost of an event
 	bash workflow/pipeline/environment/build.sh benchmarks
 	build/bin/benchmarks
-docs: setup-docs build  ## The documentation as a static site, build/docs/index.html
-	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet
-	doxygen docs/site/Doxyfile
-	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
-clean:  ## Remove build (programs, store, deposits, logs) and caches; results and figures stay
+clean:  ## Remove build (programs, store, logs) and caches; results and figures stay
 	rm -rf build .cache
-.PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev setup-docs build test test-long check format \
-  bench docs clean
+.PHONY: help figures panel report gallery audit status verify provenance prune setup setup-dev build test test-long check format bench clean

@@ -1,4 +1,4 @@
-"""Results in Python: `from workflow import load, load_panel, measure`. They are imported when they are used."""
+"""Results in Python: `from workflow import load, load_panel`. They are imported when they are used."""
 
 from importlib import import_module
 from typing import Any
@@ -6,7 +6,6 @@ from typing import Any
 MODULES = {
     "load": "workflow.lib.load",
     "load_panel": "workflow.pipeline.results",
-    "measure": "workflow.pipeline.measure",
 }
 
 

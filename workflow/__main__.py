@@ -44,7 +44,6 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "status": ("PANEL", *SELECTION),
     "verify": ("PANEL", "SAMPLE", *SELECTION),
     "provenance": ("FILE",),
-    "deposit": SELECTION,
     "prune": ("DRY", *SELECTION),
     "build": (),
 }
@@ -57,7 +56,7 @@ DONE = {  # of the targets of Snakemake
     "report": "The report is figures/{quality}/report.html",
     "gallery": "The gallery is docs/gallery",
 }
-COMPILED = (*DONE, "deposit", "build")  # targets that need the programs
+COMPILED = (*DONE, "build")  # targets that need the programs
 ALLOWED = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
@@ -150,7 +149,7 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
 
 
 def make(target: str, options: argparse.Namespace) -> int:
-    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make, and its CPU time. After SEED and REPLICAS
+    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make. After SEED and REPLICAS
     compares with the results of the quality. Raises OSError."""
     names, quality = options.panels or [*options.plan], options.quality
     stems = [stem_of(options.plan, name, quality) for name in names]
@@ -161,10 +160,6 @@ def make(target: str, options: argparse.Namespace) -> int:
     missing = [path for path in planned if not os.path.exists(path)]
     if options.dry:
         print("\n".join(missing) or "Nothing to be made")
-        if results := [path for path in missing if path.endswith(".h5")]:
-            from workflow.pipeline.cost import expected  # noqa: PLC0415  0.3 s
-
-            print(expected(results))
         return 0
     for panel in (options.plan[name] for name in options.panel.split() if options.plan[name].replaced):
         print(

@@ -1,7 +1,8 @@
-"""Numbers, verdicts and links of the papers at the top. mkdocs checks the links of docs."""
+"""Numbers and verdicts of the front page, and links of all pages."""
 
 import csv
 import re
+from pathlib import Path
 
 import pytest
 
@@ -60,10 +61,10 @@ def test_marks_of_claims_are_the_verdicts_of_the_release() -> None:
         assert verdicts[claim, intended.strip() or "literal"] == names[mark], claim
 
 
-def linked(name: str) -> list[str]:
-    return re.findall(r"\]\(([^)#\s]+)", (ROOT / name).read_text("utf-8"))
-
-
-@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"])
-def test_every_relative_link_leads_to_a_file(name: str) -> None:
-    assert [link for link in linked(name) if "://" not in link and not (ROOT / link).exists()] == []
+@pytest.mark.parametrize(
+    "page", [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")], ids=lambda page: page.name
+)
+def test_every_relative_link_leads_to_a_file(page: Path) -> None:
+    text = re.sub(r"```.*?```", "", page.read_text("utf-8"), flags=re.DOTALL)
+    links = re.findall(r"\]\(([^)#\s]+)", text)
+    assert [link for link in links if "://" not in link and not (page.parent / link).exists()] == []

@@ -7,7 +7,6 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-import xarray
 
 from tests.python.conftest import Program
 from workflow.lib.identity import result_identity
@@ -39,28 +38,23 @@ def transpose(dataset: h5py.Dataset) -> None:
 
 
 def test_dimensions_follow_their_scales(path: Path) -> None:
-    before = load(path)["flux"].to_xarray()
-    assert before["mean"].dims == ("bond", "momentum")
+    before = load(path)["flux"]
+    assert [*before.axes] == ["bond", "momentum"]
     with h5py.File(path, "r+") as file:
         for name in ("mean", "standard_error", "count"):
             transpose(file[FLUX][name])
         seal(file)
-    after = load(path)["flux"].to_xarray()
-    assert after["mean"].dims == ("momentum", "bond")
-    assert after.transpose("bond", "momentum").identical(before)
+    after = load(path)["flux"]
+    assert [*after.axes] == ["momentum", "bond"]
+    np.testing.assert_array_equal(after.mean.T, before.mean)
 
 
-def test_xarray_and_frame(path: Path) -> None:
-    flux = load(path)["flux"]
-    dataset, frame = flux.to_xarray(), flux.to_frame()
+def test_frame(path: Path) -> None:
+    frame = load(path)["flux"].to_frame()
     assert [*frame] == ["bond", "momentum", "mean", "standard_error", "count"]
     with h5py.File(path) as file:
         for name in frame:
-            np.testing.assert_array_equal(dataset[name], file[FLUX][name])
             units, description = (file[FLUX][name].attrs[key].decode() for key in ("units", "description"))
-            used = {"control_variates": file[FLUX]["mean"].attrs["control_variates"]}
-            own = used if name == "mean" else {}
-            assert dataset[name].attrs == {"units": units, "description": description, **own}
             assert (frame.attrs["units"][name], frame.attrs["description"][name]) == (units, description)
         bond, momentum = file[FLUX]["bond"][1], file[FLUX]["momentum"][2]
         row = frame[(frame.bond == bond) & (frame.momentum == momentum)]
@@ -112,23 +106,8 @@ def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: 
 
 
 def test_a_result_that_is_open_elsewhere_in_the_process(path: Path) -> None:
-    before = load(path)["flux"].to_xarray()
-    with xarray.open_dataset(path, group=FLUX, engine="h5netcdf"):
-        assert load(path)["flux"].to_xarray().identical(before)
-
-
-def test_netcdf_with_a_flag(program: Program, tmp_path: Path) -> None:
-    program(
-        "displacement",
-        zero_total_momentum=True,
-        cells=3,
-        particles_per_cell=2,
-        observation_time=1,
-        replicas=2,
-    )
-    load(tmp_path / "out.h5").to_xarray().to_netcdf(tmp_path / "out.nc")
-    with xarray.open_dataset(tmp_path / "out.nc") as saved:
-        assert saved.attrs["zero-total-momentum"] == 1
+    with h5py.File(path, "r+", locking=True):
+        assert load(path)["flux"].mean.shape == (4, 4)
 
 
 def test_a_file_that_cannot_be_opened_is_not_called_damaged(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ from workflow.pipeline.provenance import audit, verify
 ROOT = Path(__file__).parents[2]
 # Imported here, so that each fork has them and what they import already.
 PACKAGES = (audit, snakemake.cli, verify)
-OWN = ("workflow", "snakemake_logger_plugin_progress")  # modules of this project
+OWN = ("workflow",)  # modules of this project
 PLAN = """panels:
   mu:
     program: persistence

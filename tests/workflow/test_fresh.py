@@ -1,6 +1,5 @@
 """What is made again after a change: exactly what it affects, whatever else happens to the files."""
 
-import json
 import os
 import re
 import shutil
@@ -13,7 +12,7 @@ import h5py
 import pytest
 
 from tests.python.conftest import soon
-from tests.workflow.conftest import Project, named
+from tests.workflow.conftest import Project
 
 Edit = Callable[[Project], object]
 RUNS = {"mu/all_sigma=-0.5", "mu/all_sigma=0.5", "energy/ageing", "energy/few"}
@@ -75,25 +74,10 @@ def test_snakemake_makes_what_is_listed_and_a_dry_run_changes_no_file(project: P
     unimportant(project)
     append("workflow/figures/mu.py", "# x\n")(project)
     before = project.files("data", "figures", "build", "workflow/config")
-    shown = project.snakemake("--dry-run", "figures").splitlines()
-    assert named("\n".join(line for line in shown if " output: " in line)) == {"mu"}
+    shown = project.snakemake("--dry-run", "figures")
+    assert re.search(r" render +1\b", shown)
+    assert not re.search(r" simulate +\d", shown)
     assert project.files("data", "figures", "build", "workflow/config") == before
-
-
-def test_a_dry_run_sums_the_costs_of_former_runs(project: Project) -> None:
-    """Of the same effort, with any seed and from any sources; a run without one is counted as such."""
-    former = [*(project.folder / "data/smoke").glob("*/*.cost.json")]
-    for path in former:
-        path.write_text(json.dumps({"cpu_seconds": 2.0}))
-    runs = len(former)
-    last = project.entry("figures", "DRY=yes", "SEED=7").splitlines()[-1]
-    assert re.findall(r"[\d.]+", last) == [str(2 * runs), str(runs), str(runs)]
-    former[0].unlink()
-    last = project.entry("figures", "DRY=yes", "SEED=7").splitlines()[-1]
-    assert re.findall(r"[\d.]+", last) == [str(2 * (runs - 1)), str(runs - 1), str(runs)]
-    last = project.entry("figures", "DRY=yes", "REPLICAS=7").splitlines()[-1]
-    assert "unknown" in last
-    assert "CPU" not in project.entry("figures", "DRY=yes")
 
 
 def test_equal_inputs_give_equal_bytes_in_any_environment(project: Project) -> None:
@@ -143,7 +127,8 @@ def test_wrong_results_are_refused_and_the_same_command_makes_them_again(project
     before = project.products()
     shutil.copy(project.one("data/smoke/mu/all_sigma=-0.5.*.h5"), project.one("data/smoke/energy/few.*.h5"))
     (project.folder / "build/figures/smoke").rename(project.folder / "former")
-    assert "the same command makes it again" in project.entry("panel", "PANEL=energy", status=1)
+    printed = project.entry("panel", "PANEL=energy", status=1)
+    assert "the same command makes it again" in " ".join(printed.split())
     refused = [*project.folder.glob("data/smoke/*/*.refused")]
     assert len(refused) == 1
     for path in refused:

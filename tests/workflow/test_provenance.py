@@ -1,10 +1,8 @@
-"""Audit, status, provenance, comparison, verify, prune and deposit of the small project."""
+"""Audit, status, provenance, comparison, verify and prune of the small project."""
 
 import hashlib
 import json
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -293,26 +291,3 @@ def test_results_in_git_are_of_the_release_and_stay_after_a_change(project: Proj
     project.entry("prune")
     assert released.exists()
     assert not other.exists()
-
-
-def test_a_deposit_renders_elsewhere_without_simulation(project: Project, tmp_path: Path) -> None:
-    """There is no program where it is unpacked, but their descriptions, and a file that git ignores."""
-    write("data/points.csv")(project)
-    substitute("workflow/config/paper.yaml", "  mu:\n", "  mu:\n    reads: [data/points.csv]\n")(project)
-    project.entry("figures")
-    project.entry("prune")
-    commit(project)
-    write("notes.txt")(project)
-    project.entry("deposit")
-    archive = project.folder / "build/deposit/lorentz-gas-smoke.zip"
-    subprocess.run([sys.executable, "-m", "zipfile", "-e", archive, tmp_path], check=True)
-    there = Project(tmp_path / "lorentz-gas-smoke")
-    subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=there.folder, check=True)
-    assert not (there.folder / "notes.txt").exists()
-    shutil.copytree(project.folder / ".venv", there.folder / ".venv", symlinks=True)
-    assert "all hold" in there.entry("status")
-    shutil.rmtree(there.folder / "build/figures")
-    there.entry("figures")
-    assert there.products() == project.products()
-    write("workflow/figures/mine.py")(project)
-    assert "workflow/figures/mine.py is not tracked" in project.entry("deposit", status=1)

@@ -1,4 +1,4 @@
-"""The tutorial and the example of another model are executed literally, and statements on paper.yaml hold."""
+"""The tutorial is executed literally, and statements on paper.yaml hold."""
 
 import re
 import shutil
@@ -17,7 +17,6 @@ TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
 OBSERVABLE, _, REST = REST.partition("## A collision rule of your own")
 RULE, _, GRAMMAR = REST.partition("## The grammar of paper.yaml")
-MODEL = (ROOT / "docs/your_own_model.md").read_text()
 BLOCK = re.compile(r"(?:`(?P<path>[\w./]+)`:\n\n)?```(?P<kind>\w+)\n(?P<text>.*?)```", re.DOTALL)
 SIGMA = [-0.9, -0.6, -0.3, 0.3, 0.6, 0.9]
 
@@ -40,15 +39,10 @@ def test_a_panel_of_your_own(project: Project) -> None:
     assert list(table.sigma) == SIGMA
     assert (table.kappa > 0).all()
     assert "kappa_sigma" in printed
-    assert "Dimensions:" in printed
-    assert f"kappa at 0.6: {table.kappa[4]:.6g}"[:-1] in printed
-    assert re.search(r"kappa: [0-9.]+ \+- [0-9.]+\n", printed)
+    assert f"{table.kappa[4]:.6g}"[:-1] in printed
     alone = load(project.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02
-    (stated,) = re.findall(r"From an empty chain κ is (.*) after 100", PANEL)
-    assert "kappa: " + " ".join(re.findall(r"[\d.]+\([\d.]+\)", stated)) in printed
-    assert "stationary: 0.0 0.0 1.0" in printed
 
 
 def link(source: str, target: str) -> None:
@@ -72,7 +66,7 @@ def own(tmp_path: Path) -> Project:
 
 @pytest.mark.long
 def test_an_observable_of_your_own(own: Project) -> None:
-    for block in [*BLOCK.finditer(MODEL), *BLOCK.finditer(OBSERVABLE)]:
+    for block in BLOCK.finditer(OBSERVABLE):
         follow(own, block)
     own.run("make", "panel", "PANEL=rate", "QUALITY=smoke")
     table = pd.read_csv(own.folder / "figures/smoke/rate.csv", comment="#")
@@ -92,12 +86,8 @@ def test_an_observable_of_your_own(own: Project) -> None:
     assert float(result["mean_square"].standard_error) == pytest.approx(
         2 * float(energy.standard_error), rel=1e-9
     )
-    # A program of another model needs the layer of programs alone.
-    own.run("build/bin/walk", "--step", "2", "--replicas", "256", "--seed", "3", "--output", "walk.h5")
-    square = load(own.folder / "walk.h5")["square"]
-    assert abs(square.mean - 400) < 4 * square.error < 200
     # The other panels stay as they are.
-    assert stem_of(load_plan("smoke"), "fig05", "smoke") in own.snakemake("--dry-run", "figures")
+    assert stem_of(load_plan("smoke"), "fig05", "smoke") in own.entry("figures", "DRY=yes")
 
 
 @pytest.mark.long

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import Any, SupportsIndex
 
 import h5py
 import numpy as np
@@ -17,9 +17,6 @@ import pandas as pd
 from workflow.lib.identity import IDENTITY, named_identity, result_identity
 from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
-
-if TYPE_CHECKING:
-    import xarray
 
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 4
@@ -77,17 +74,6 @@ class Quantity:
     def replicas(self) -> np.ndarray:
         """Number of replicas. Raises FormatError for a computed quantity."""
         return _measured(self.count)
-
-    def to_xarray(self) -> "xarray.Dataset":
-        """Mean, errors and count over the axes, each with the attributes units and description, and control_variates of the mean."""
-        import xarray  # noqa: PLC0415  # 0.5 s, not needed for figures
-
-        attributes: dict[str, dict[str, Any]] = {**self._attributes()}
-        if self.control_variates is not None:
-            attributes["mean"]["control_variates"] = int(self.control_variates)  # netCDF has no bool
-        values = {name: (tuple(self.axes), array, attributes[name]) for name, array in self.arrays().items()}
-        axes = {name: (name, array, attributes[name]) for name, array in self.axes.items()}
-        return xarray.Dataset(values, axes)
 
     def to_frame(self) -> pd.DataFrame:
         """One row per value; attrs["units"] and attrs["description"] map columns to theirs."""
@@ -148,18 +134,6 @@ class Result:
         for name in names:
             columns |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
         return columns
-
-    def to_xarray(self) -> "xarray.DataTree":
-        """A Dataset of every quantity, by its name; the attributes are the parameters, `converged`, and the doubts."""
-        import xarray  # noqa: PLC0415
-
-        datasets = {name: quantity.to_xarray() for name, quantity in self.quantities.items()}
-        parameters = {
-            name: int(value) if isinstance(value, np.bool_ | bool) else value
-            for name, value in self.parameters.items()
-        }  # netCDF has no bool
-        attributes = parameters | {"converged": self.converged, "doubts": ", ".join(self.doubts)}
-        return xarray.DataTree.from_dict({"/": xarray.Dataset(attrs=attributes), **datasets})
 
     @property
     def replicas(self) -> int:
@@ -249,7 +223,7 @@ def nodes_of(file: h5py.File) -> dict[str, h5py.Group | h5py.Dataset]:
 @contextmanager
 def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dict[str, h5py.Dataset]]]:
     """Opens a result file after checking identity and checksum. HDF5 gets its bytes: it refuses a file that the same process has open with
-    another kind of lock, as xarray does. Results are written under another name and renamed, and need no lock."""
+    another kind of lock. Results are written under another name and renamed, and need no lock."""
     try:
         with h5py.File(io.BytesIO(Path(path).read_bytes())) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}

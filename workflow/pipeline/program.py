@@ -64,11 +64,8 @@ def command_line(run: Run, threads: int = 1) -> list[str]:
     return [f"build/bin/{run.program}", *arguments(run.options), *conduct]
 
 
-def execute(
-    program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS, relay: bool = False
-) -> str:
-    """Executes a program, which writes its result to `output`, and returns its messages. relay: also print them at once. Raises ProgramError
-    with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
+def execute(program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS) -> str:
+    """Executes a program, which writes its result to `output`, and returns its messages. Raises ProgramError with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
     command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
     if shutil.which(
         "setpriv"
@@ -79,10 +76,7 @@ def execute(
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
         assert running.stderr
         try:
-            for line in running.stderr:
-                lines.append(line)
-                if relay and ": error: " not in line:
-                    print(line, end="", file=sys.stderr)
+            lines.extend(running.stderr)
         except KeyboardInterrupt:
             running.send_signal(signal.SIGINT)
             print(running.stderr.read(), end="", file=sys.stderr)

@@ -1,6 +1,5 @@
 #!/bin/bash
-# System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks, with "docs" those of the
-# site, with "slurm" those of PROFILE=slurm.
+# System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks, with "slurm" those of PROFILE=slurm.
 # uv installs them: from PATH, or a fixed version in .cache/uv.
 set -euo pipefail
 bash workflow/pipeline/environment/system_packages.sh "$@"
@@ -17,7 +16,7 @@ for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
 # A relocatable environment may be copied and moved. Without its interpreter it is created again.
 .venv/bin/python -c '' 2>/dev/null || "$uv" venv --quiet --clear --relocatable .venv
 for packages in .venv/lib/python3*/site-packages; do
-  printf '../../../..%s\n' '' /workflow/pipeline/plugins >"$packages/project.pth" # from the folder that the environment is in
+  echo ../../../.. >"$packages/project.pth" # from the folder that the environment is in
 done
 # `uv sync` would need the index in uv.lock; this installs from a mirror, too, with the locked hashes. Other packages of the user stay.
 "$uv" export --quiet --frozen --no-emit-project $groups >.venv/locked.txt

@@ -1,14 +1,11 @@
 #!/bin/bash
 # Finds missing packages of Debian and Ubuntu, and installs them with apt if root; otherwise prints the command to do so. Elsewhere CMake
-# names what it misses. With "dev" also the packages for tests, checks and benchmarks, with "docs" those for the site and its tests.
+# names what it misses. With "dev" also the packages for tests, checks and benchmarks.
 set -euo pipefail
 needed='g++ cmake ninja-build libeigen3-dev libgsl-dev libhdf5-dev zlib1g-dev libcli11-dev nlohmann-json3-dev librandom123-dev
   libsleef-dev libfmt-dev python3-venv'
 for group; do
-  case $group in
-    dev) needed+=' libgtest-dev libbenchmark-dev clang' ;;
-    docs) needed+=' doxygen chromium' ;;
-  esac
+  if [ "$group" = dev ]; then needed+=' libgtest-dev libbenchmark-dev clang'; fi
 done
 command -v dpkg-query >/dev/null || exit 0
 installed=$(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p')
