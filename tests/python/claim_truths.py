@@ -109,22 +109,6 @@ claim(
     found, rate_right=EXACT,
 )  # fmt: skip
 
-# The excess is linear in ln N except at the smallest of these sizes, where it is 0.1 larger. All errors are equal.
-logarithms = np.log([20, 30, 50, 100, 200, 500, 1000])
-lever = (logarithms[0] - logarithms.mean()) / np.sum((logarithms - logarithms.mean()) ** 2)
-
-
-def excess(run: Run, end: np.ndarray) -> np.ndarray:
-    size = run.options["cells"]
-    return 1e6 + (1 + end) * math.log(size) + 0.1 * (size == 20) + 3 * (size == 10)
-
-
-both = {"density_excess": excess}
-claim(
-    "profiles.boundary_grows", {"rates": both, "fig02_upper": both},
-    [(slope + 0.1 * lever, abs(0.1 * lever)) for slope in (1, 2)], density_excess=1e-8,
-)  # fmt: skip
-
 
 # Equilibrium at T = 100, with deviations from it that are twice as large at gamma = 1.
 def times(run: Run) -> int:

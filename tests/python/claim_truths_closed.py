@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from tests.python.claim_truths import EXACT, World, claim, named, rare
-from workflow.physics.closed import quasi_stationary
 from workflow.pipeline.plan import Run, load_plan
 
 
@@ -43,14 +42,9 @@ dense = of_runs("fig05", shift, lambda run: run.series == "dense")
 claim("closed.persistence_in_dense_chain", persistences, dense)
 claim("closed.persistent", persistences, [1 / 3 + 0.025])
 
-# Exponents of waiting times by relaxation time, of which 1 does not count. The spread over cuts of the tail is 0.1.
-aged = {1: 9, 10: -2.05, 100: -1.8, 1000: -2.1}
+# Exponents of waiting times. The spread over cuts of the tail is 0.1.
 waits = {"fig06": {"exponent": named({"all_sigma=0.5": -2, "all_sigma=0": -3}), "exponent_spread": 0.1}}
-claim(
-    "closed.waiting_half",
-    {**waits, "ageing": {"exponent": lambda run: aged[run.options["relaxation-time"]]}},
-    [(-2, 0.3)],
-)
+claim("closed.waiting_half", waits, [(-2, 0.1)])
 claim("closed.waiting_zero", waits, [(-3, 0.1)])
 
 
@@ -73,29 +67,6 @@ claim("closed.random_directions", spreading, found)
 drift = {"fig07_inset": {"momentum_drift": lambda run: 10 ** (-3 - alpha(run))}}
 found = [-4.8 - 0.1 * sigma for sigma in sigmas] + [-4.4 - 0.1 * sigma for sigma in sigmas]
 claim("closed.momentum_changes", drift, found)
-
-
-# Ageing: the energy of the paper's chain is the estimate times 1.1 at the start of a decade, and times 9 in between. In the chain of few
-# particles the slope is 60 in the decade before t = 1, then 40, and 3 in the last decade.
-def estimate(run: Run, time: np.ndarray) -> np.ndarray:
-    given = (run.options[name] for name in ("particles-per-cell", "temperature", "cell-length"))
-    return 0.5 * quasi_stationary(*given, time)[0]
-
-
-def energies(run: Run, time: np.ndarray) -> np.ndarray:
-    fraction = np.log10(time) % 1
-    return estimate(run, time) * np.where(np.minimum(fraction, 1 - fraction) < 1e-9, 1.1, 9)
-
-
-def slopes(run: Run, decade: np.ndarray) -> np.ndarray:
-    found = np.select([decade == decade.max(), np.isclose(decade, 1), decade < 0.9], [3.0, 40, 60], 20)
-    return found if run.name == "few" else 7 * found
-
-
-few = next(run for run in load_plan("paper")["ageing"].runs if run.name == "few")
-first, last = (np.diff(estimate(few, np.array(ends)))[0] for ends in ((1, 10), (1e5, 1e6)))
-found = [0.1] * 4 + [3 / 40 - last / first]
-claim("closed.ageing", {"ageing": {"scatterer_energy_mean": energies, "decade_slope": slopes}}, found)
 
 
 # Conductivity. At gamma = 1 kappa is N, but smaller by a factor of e^-0.002 at 128, the first of the five sizes within a factor of 16 of

@@ -59,8 +59,6 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     cells = run.options["cells"] if isinstance(run.options["cells"], int) else 10
     times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
     bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
-    decades, end = run.options.get("decades", 6), run.options.get("observation-time")
-    starts = (end if isinstance(end, int) else 1) * 10.0 ** np.arange(-decades, 0)
     positions = run.options.get("positions")
     return {
         "time": times,
@@ -74,8 +72,6 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "x": np.array(positions.split(","), dtype=float) if positions else np.linspace(0, 1, cells + 1),
         "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
         "distance": np.arange(1.0, cells // 2 + 1),
-        "decade": starts,
-        "window": np.sort([*starts, *(2 * starts)]),
     }
 
 

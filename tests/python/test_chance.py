@@ -90,7 +90,6 @@ def measured(measure: Measure, chain: Chain) -> Measured:
 
     moments = ["variance", "variance_plain", "centre_of_mass", "mean_displacement"]
     add("displacement", moments, EVERY, decades=DECADES)
-    add("ageing", ["scatterer_energy"], EVERY, decades=DECADES)
     add("persistence", ["mu"])
     add("waiting_time", ["density"])
     return measurements

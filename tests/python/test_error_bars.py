@@ -15,7 +15,6 @@ CASES: list[tuple[str, str, dict]] = [
     ("persistence", "mu", {"sigma": -0.8}),
     ("waiting_time", "exponent", {"sigma": 0.5, "observation_time": 50}),
     ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
-    ("ageing", "log_slope", {"sigma": 0.5, "decades": 2, "relaxation_time": 0}),
     ("heat_current", "amplitude", EQUILIBRIUM),
     ("steady_profile", "density_excess", OPEN | {"gamma": 1}),
     ("momentum_flux", "jump", OPEN | {"gamma": 0.3}),

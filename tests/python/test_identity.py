@@ -33,7 +33,7 @@ def test_no_other_program_uses_the_sources_of_one() -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["target_compile_options(ageing PRIVATE -Ofast)", 'set(CMAKE_CXX_FLAGS "-mfma")']
+    "line", ["target_compile_options(displacement PRIVATE -Ofast)", 'set(CMAKE_CXX_FLAGS "-mfma")']
 )
 def test_flags_that_are_in_no_identity_are_refused(cpp: Path, line: str) -> None:
     with (cpp / "CMakeLists.txt").open("a") as file:

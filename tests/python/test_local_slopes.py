@@ -6,7 +6,7 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
-from workflow.figures import ageing, fig01_inset, fig03_inset, fig06, fig08, fig09, momentum
+from workflow.figures import fig01_inset, fig03_inset, fig06, fig08, fig09, momentum
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Quantity, Result
 from workflow.physics.closed import quasi_stationary
@@ -33,18 +33,14 @@ def test_slopes_of_a_logarithm_are_its_factor() -> None:
 
 
 @pytest.mark.parametrize("particles", [2, 20])
-def test_the_estimate_conserves_energy_and_is_used_at_late_times(particles: int) -> None:
+def test_the_estimate_conserves_energy(particles: int) -> None:
     """Detected mistakes: a factor of 2 or Λ is missing; the iteration has not converged."""
-    options = {"particles-per-cell": particles, "temperature": 500.0, "cell-length": 1.0}
-    chain = Result(ROOT, options, {}, {})
-    time = np.array([0.1, 1.0, 1e3, 1e40])
-    scatterer, particle = ageing.estimate(chain, time).values()
-    assert np.isnan([scatterer[0], particle[0]]).all()
-    np.testing.assert_allclose(particles * particle[1:] + scatterer[1:], particles * 250)
-    np.testing.assert_allclose(scatterer[-1], particles * 250, rtol=particles / 80)  # the energy saturates
-    a = 1 / (time[2] * np.sqrt(2 * scatterer[2]))
-    logarithm = np.log(np.sqrt(2) / a) - np.euler_gamma / 2 + 1  # eq. 13 at late times
-    np.testing.assert_allclose(scatterer[2] / particle[2], logarithm, rtol=1e-6)
+    time = np.array([1.0, 1e3, 1e40])
+    temperature, slow = quasi_stationary(particles, 500, 1, time)
+    np.testing.assert_allclose(particles * temperature / slow + temperature, particles * 500)
+    np.testing.assert_allclose(temperature[-1], particles * 500, rtol=particles / 80)  # the energy saturates
+    expected = np.log(time[1] * np.sqrt(2 * temperature[1])) - np.euler_gamma / 2 + 1  # eq. 13 at late times
+    np.testing.assert_allclose(slow[1], expected, rtol=1e-6)
 
 
 def test_the_deviation_at_p_0_is_extrapolated_from_both_sides() -> None:

@@ -30,8 +30,6 @@ CASES = {
     "displacement": ("displacement", CLOSED),
     "displacement, rare": ("displacement", CLOSED | {"gamma": 2, "zero-total-momentum": True}),
     "displacement, random": ("displacement", CLOSED | {"rule": "random-direction"}),
-    "ageing": ("ageing", CLOSED),
-    "ageing, rare": ("ageing", CLOSED | {"gamma": 0.5}),
     "heat_current": ("heat_current", EQUILIBRIUM),
     "heat_current, random": ("heat_current", EQUILIBRIUM | {"rule": "random-direction"}),
     "energy_pulse": ("energy_pulse", PULSE),

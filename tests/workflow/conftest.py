@@ -32,8 +32,8 @@ PLAN = """panels:
   energy:
     uses: [mu]
     series:
-      ageing: {program: ageing, cells: 4, particles-per-cell: 4, observation-time: 5}
-      few: {program: ageing, cells: 4, particles-per-cell: 2, observation-time: 5}
+      ageing: {program: displacement, cells: 4, particles-per-cell: 4, observation-time: 5}
+      few: {program: displacement, cells: 4, particles-per-cell: 2, observation-time: 5}
 """
 SCRIPT = '''"""A panel of a test."""
 
@@ -158,7 +158,7 @@ def new_project(folder: Path) -> Project:
         (folder / f"workflow/figures/{panel}.py").write_text(SCRIPT)
     (folder / "build/bin").mkdir(parents=True)
     for source in (folder / "cpp/observables").glob("*.cpp"):
-        if source.stem in ("persistence", "ageing"):
+        if source.stem in ("persistence", "displacement"):
             (folder / "build/bin" / source.stem).symlink_to(ROOT / "build/bin" / source.stem)
         else:
             source.unlink()

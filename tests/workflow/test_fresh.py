@@ -45,7 +45,7 @@ def unimportant(project: Project) -> None:
 PAPER, SMOKE = "workflow/config/paper.yaml", "workflow/config/quality/smoke.yaml"
 CHANGES: dict[str, tuple[Edit, set[str]]] = {
     "line of C++ of a program": (
-        append("cpp/observables/ageing.cpp", "int x;\n"),
+        append("cpp/observables/displacement.cpp", "int x;\n"),
         {"energy/ageing", "energy/few", "energy"},
     ),
     "flag of the compiler": (append("cpp/flags.cmake", "set(x)\n"), RUNS | PANELS),
@@ -99,9 +99,9 @@ def test_a_program_that_is_older_than_its_sources_is_refused(project: Project) -
 
 def test_a_program_without_a_source_is_unknown(project: Project) -> None:
     """Also if the description that a former build wrote is still there."""
-    assert (project.folder / "build/describe/displacement.json").exists()
-    text(PAPER, "program: ageing", "program: displacement")(project)
-    assert "displacement" in project.entry("status", status=2)
+    assert (project.folder / "build/describe/heat_current.json").exists()
+    text(PAPER, "program: displacement", "program: heat_current")(project)
+    assert "heat_current" in project.entry("status", status=2)
 
 
 def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(project: Project) -> None:
@@ -111,7 +111,7 @@ def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(pr
     assert project.workflow("build") == ""
     build = (".venv/bin/python", "-m", "workflow", "build")
     assert project.run(*build, CXX="c++").stdout == "compiled\n"
-    program = project.folder / "build/bin/ageing"
+    program = project.folder / "build/bin/displacement"
     content = program.read_bytes()
     program.unlink()
     program.write_bytes(content)  # not executable

@@ -285,7 +285,7 @@ def test_results_in_git_are_of_the_release_and_stay_after_a_change(project: Proj
     released, other = project.one(FEW), project.one(AGEING)
     commit(project)
     project.run("git", "add", "--force", str(released))
-    substitute("cpp/observables/ageing.cpp", "#include", "int x;\n#include")(project)
+    substitute("cpp/observables/displacement.cpp", "#include", "int x;\n#include")(project)
     lines = project.entry("status", status=1).splitlines()
     assert [released.name in line for line in lines if "of the release" in line] == [True]
     project.entry("prune")

@@ -1,4 +1,4 @@
-"""Claims on the closed chain: persistence, waiting times, spreading, conservation, ageing (figs. 5 to 7, section 5)."""
+"""Claims on the closed chain: persistence, waiting times, spreading, conservation (figs. 5 to 7, section 5)."""
 
 import math
 import sys
@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, estimate, ratio
+from workflow.claims.data import Data, estimate
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Result
-from workflow.physics.closed import ROUNDING, persistence_law, quasi_stationary
+from workflow.physics.closed import persistence_law
 
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
@@ -51,9 +51,8 @@ def persistent(data: Data) -> list[Estimate]:
 
 
 def waiting_half(data: Data) -> list[Estimate]:
-    """Exponent of the waiting times at sigma = 1/2. Its change with the relaxation time is a systematic error."""
-    runs = [run for run in data.of("ageing", "waiting") if run.parameters["relaxation-time"] >= 10]
-    return [with_systematic(_waiting(data, 0.5), [float(run["exponent"].mean) for run in runs])]
+    """Exponent of the waiting times at sigma = 1/2."""
+    return [_waiting(data, 0.5)]
 
 
 def waiting_zero(data: Data) -> list[Estimate]:
@@ -118,38 +117,3 @@ def momentum_changes(data: Data) -> list[Estimate]:
         error = drift.error / (change * math.log(10))
         changes.append(Estimate(drift.label, math.log10(change), error, drift.freedom))
     return changes
-
-
-def ageing(data: Data) -> list[Estimate]:
-    """Against the quasi-stationary estimate: the energy of a scatterer of the paper's chain over it, minus 1, at the start of every decade from
-    t = 1 on; and in a chain of few particles, whose energy saturates, the slope against ln t in the last decade over that in the first
-    decade from t = 1 on, minus that of the estimate."""
-    paper, few = (data.one("ageing", run) for run in ("energy", "few"))
-    numbers = []
-    (times,) = paper["scatterer_energy_mean"].axes.values()
-    expected = _estimate(paper, times)
-    for decade in range(math.floor(math.log10(times[-1])) + 1):
-        k = _first(times, 10.0**decade)
-        label = f"energy/(eq. 14) - 1, n = {paper.parameters['particles-per-cell']}, t = {times[k]:.3g}"
-        numbers.append(estimate(paper, "scatterer_energy_mean", k, label).over(expected[k], 1))
-    decades = few["decade_slope"].axes["decade"]
-    first = _first(decades, 1.0)
-    ends = [_estimate(few, factor * decades[[first, -1]]) for factor in (1, 10)]
-    rise = ends[1] - ends[0]
-    label = f"slope from t = {decades[-1]:g} over that from t = 1, minus eq. 14, n = {few.parameters['particles-per-cell']}"
-    change = ratio(estimate(few, "decade_slope", -1), estimate(few, "decade_slope", first), label)
-    return [*numbers, change.over(1, float(rise[1] / rise[0]))]
-
-
-def _estimate(result: Result, times: np.ndarray) -> np.ndarray:
-    """Energy of a scatterer at the given times by eq. 14."""
-    particles, start, length = (
-        float(result.parameters[name]) for name in ("particles-per-cell", "temperature", "cell-length")
-    )
-    temperature, _ = quasi_stationary(particles, start, length, times)
-    return 0.5 * temperature
-
-
-def _first(times: np.ndarray, after: float) -> int:
-    """Index of the first time that is not before the given one."""
-    return int(np.flatnonzero(times >= after * (1 - ROUNDING))[0])

@@ -1,17 +1,12 @@
 """Claims on the profiles of an open chain (fig. 2, section 3)."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
-from workflow.claims.data import Data, by_size, combination, estimate, freedom, ratio
-from workflow.claims.verdict import Estimate, with_systematic
-from workflow.lib.fit import fit_line
+from workflow.claims.data import Data, combination, estimate, ratio
+from workflow.claims.verdict import Estimate
 from workflow.lib.load import Result
 
 RUNS = {"deterministic": "γ = N", "rare": "γ = 1"}
-FROM_SIZE = 20  # cells; shorter chains have no bulk
 DEVIATIONS = (  # quantity, label, number of the first scatterer or bond
     ("rate_right", "rate to the right at scatterer", 1),
     ("rate_left", "rate to the left at scatterer", 1),
@@ -70,19 +65,3 @@ def linear_rates(data: Data) -> list[Estimate]:
                 label = f"{words} {k + first}, {name}"
                 numbers.append(estimate(result, f"{quantity}_deviation", k, label).over(scale))
     return numbers
-
-
-def boundary_grows(data: Data) -> list[Estimate]:
-    """Excess density of the end cells against ln N at gamma = 1."""
-    every = [*data.of("rates", "size"), data.one("fig02_upper", "rare")]
-    results = by_size(run for run in every if run.parameters["cells"] >= FROM_SIZE)
-    return [_slope(results, end, name) for end, name in enumerate(("first", "last"))]
-
-
-def _slope(results: Sequence[Result], end: int, name: str) -> Estimate:
-    size = np.log([run.parameters["cells"] for run in results])
-    points = [estimate(run, "density_excess", end) for run in results]
-    value, error = [point.value for point in points], [point.error for point in points]
-    line, later = fit_line(size, value, error), fit_line(size[1:], value[1:], error[1:])
-    label = f"excess of the {name} cell per unit of ln N"
-    return with_systematic(Estimate(label, line.slope, line.error, freedom(*results)), [later.slope])

@@ -5,7 +5,6 @@ from numpy.typing import ArrayLike
 
 from workflow.physics.mode_coupling import logarithm_at
 
-ROUNDING = 1e-9  # relative rounding error of times on a logarithmic grid
 ITERATIONS = 20  # of the quasi-stationary estimate; each reduces the distance from the fixed point by a factor of at least 8
 
 
