@@ -53,9 +53,6 @@ class CollisionOperator {
   /// Derivative of G at the flux of the last gain(), column by column in the given directions.
   Flux derivative(const Flux& direction) const;
 
-  /// <p^2> at the flux of the last gain().
-  const Eigen::RowVectorXd& temperature() const { return temperature_; }
-
   /// Density g of U at the flux of the last gain(), at points, then at minus the points.
   Flux scatterer_density(const Eigen::VectorXd& points) const;
 

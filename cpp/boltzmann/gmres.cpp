@@ -9,11 +9,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-KrylovResult gmres(const LinearMap& a, const LinearMap& preconditioner, const VectorXd& b, double tolerance,
-                   int limit) {
+KrylovResult gmres(const LinearMap& a, const VectorXd& b, double tolerance, int limit) {
   const double size = b.norm();
   if (size == 0) return {b, 0};
-  std::vector<VectorXd> basis{b / size}, directions;
+  std::vector<VectorXd> basis{b / size};
   std::vector<Eigen::JacobiRotation<double>> rotations;
   MatrixXd triangle = MatrixXd::Zero(limit + 1, limit);
   VectorXd rest =
@@ -21,8 +20,7 @@ KrylovResult gmres(const LinearMap& a, const LinearMap& preconditioner, const Ve
   rest[0] = size;
   Index n = 0;
   while (n < limit && std::abs(rest[n]) > tolerance * size) {
-    directions.push_back(preconditioner(basis.back()));
-    VectorXd next = a(directions.back());
+    VectorXd next = a(basis.back());
     for (Index i = 0; i <= n; ++i) {
       triangle(i, n) = basis[static_cast<std::size_t>(i)].dot(next);
       next -= triangle(i, n) * basis[static_cast<std::size_t>(i)];
@@ -40,7 +38,7 @@ KrylovResult gmres(const LinearMap& a, const LinearMap& preconditioner, const Ve
   }
   const VectorXd weights = triangle.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(rest.head(n));
   VectorXd solution = VectorXd::Zero(b.size());
-  for (Index i = 0; i < n; ++i) solution += weights[i] * directions[static_cast<std::size_t>(i)];
+  for (Index i = 0; i < n; ++i) solution += weights[i] * basis[static_cast<std::size_t>(i)];
   return {std::move(solution), static_cast<int>(n)};
 }
 

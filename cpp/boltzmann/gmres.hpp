@@ -13,10 +13,9 @@ struct KrylovResult {
   int iterations = 0;
 };
 
-/// Solution of A x = b by GMRES without restart and with the right preconditioner P: A P y = b, x = P y (Saad
-/// & Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986)). The iteration starts at x = 0 and ends when |b - A
-/// x| <= `tolerance` |b|, or after `limit` iterations without an error.
-KrylovResult gmres(const LinearMap& a, const LinearMap& preconditioner, const Eigen::VectorXd& b,
-                   double tolerance, int limit);
+/// Solution of A x = b by GMRES without restart (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986)).
+/// The iteration starts at x = 0 and ends when |b - A x| <= `tolerance` |b|, or after `limit` iterations
+/// without an error.
+KrylovResult gmres(const LinearMap& a, const Eigen::VectorXd& b, double tolerance, int limit);
 
 }  // namespace lorentz

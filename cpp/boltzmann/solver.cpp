@@ -1,12 +1,13 @@
 #include "boltzmann/solver.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "boltzmann/gmres.hpp"
-#include "boltzmann/hydrodynamic_preconditioner.hpp"
 
 namespace lorentz {
 namespace {
@@ -65,6 +66,29 @@ Panels wave_number_panels(const KineticProblem& problem, int order) {
 Sites make_sites(const KineticProblem& problem, const Resolution& resolution) {
   return problem.cells > 0 ? Sites::chain(problem.cells) : Sites::continuum(resolution.sites);
 }
+
+/// Free streaming with absorption at the sites: L = (1 + gamma B)^-1 gamma B with B = from_left or from_right
+/// maps the gain at the sites to the flux that arrives there, the same for every |p|.
+class Streaming {
+ public:
+  Streaming(double gamma, const Transport& transport)
+      : to_right_(response(gamma, transport.from_left)), to_left_(response(gamma, transport.from_right)) {}
+
+  Flux operator()(const Flux& gain) const {
+    const Index half = gain.rows() / 2;
+    Flux flux(gain.rows(), gain.cols());
+    flux.topRows(half) = gain.topRows(half) * to_right_.transpose();
+    flux.bottomRows(half) = gain.bottomRows(half) * to_left_.transpose();
+    return flux;
+  }
+
+ private:
+  static MatrixXd response(double gamma, const MatrixXd& b) {
+    return (MatrixXd::Identity(b.rows(), b.rows()) + gamma * b).partialPivLu().solve(gamma * b);
+  }
+
+  MatrixXd to_right_, to_left_;
+};
 
 /// Bath with the mean rate and the rate-weighted mean temperature; equal to both baths to the last digit if
 /// they are equal.
@@ -143,7 +167,7 @@ void KineticSolution::iterate(Flux flux) {
   constexpr double rounding = 3e-14;    // relative residual that rounding permits
   constexpr double acceptable = 1e-10;  // relative residual that suffices if it falls no further
   const Transport transport = sites_.transport_to(sites_.positions());
-  const Streaming streaming = Streaming::absorbing(problem_.gamma, transport.from_left, transport.from_right);
+  const Streaming streaming(problem_.gamma, transport);
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
     return vector.reshaped(flux.rows(), flux.cols());
   };
@@ -169,15 +193,10 @@ void KineticSolution::iterate(Flux flux) {
       continue;
     }
     smallest = now;
-    const HydrodynamicPreconditioner preconditioner(problem_.sigma, momenta_, streaming,
-                                                    collision_.temperature());
-    const LinearMap precondition = [&](const VectorXd& vector) -> VectorXd {
-      return preconditioner(as_flux(vector)).reshaped();
-    };
     // A tolerance proportional to the residual keeps Newton's convergence quadratic; its lower bound is the
     // accuracy that rounding permits.
     const double tolerance = std::min(0.01, std::max(now, 0.1 * rounding / now));
-    change = as_flux(gmres(linearised, precondition, residual.reshaped(), tolerance, krylov_limit).solution);
+    change = as_flux(gmres(linearised, residual.reshaped(), tolerance, krylov_limit).solution);
     flux += change;
   }
   throw ConvergenceError(

@@ -29,10 +29,6 @@ enum class Purpose : std::uint64_t {
 /// do not depend on the number of threads.
 class RandomStream {
  public:
-  static constexpr const char* description =
-      "Philox4x64-10; key (seed, purpose); counter (block, entity, replica, 0), of events (event, entity, "
-      "replica, block)";
-
   RandomStream(const StreamKey& key, Purpose purpose, std::uint64_t entity)
       : key_{{key.seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, key.replica, 0}} {}
 

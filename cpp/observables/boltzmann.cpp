@@ -80,9 +80,9 @@ FieldGrid Parameters::grid() const {
 
 void declare(Options& options, Parameters& parameters) {
   options.real("--sigma", parameters.sigma, {-0.99, 0.99}, "1", "Mass ratio (M-m)/(M+m)");
-  options.real_or_word("--gamma", parameters.gamma, {0, 1000}, "N", "1",
+  options.real_or_word("--gamma", parameters.gamma, {0, 100}, "N", "1",
                        "Mean number of scatterings on the way through; N: one at each of --cells");
-  options.integer_or_word("--cells", parameters.cells, {1, 300}, "continuum",
+  options.integer_or_word("--cells", parameters.cells, {1, 100}, "continuum",
                           "Number of scatterers of a mean-field chain");
   declare(options, parameters.rule);
   declare(options, parameters.left, parameters.right);
@@ -225,7 +225,6 @@ Outcome solve(const Parameters& parameters, Progress& progress) try {
     progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
                              solution.error, target));
   return {.results = results(parameters, solution),
-          .streams = "none",
           .events = static_cast<std::uint64_t>(solution.evaluations),
           .target_quantity = "currents",
           .target_error = target,

@@ -4,13 +4,13 @@
 ///   kappa = -J_U N / (T_N - T_1).
 ///
 /// The paper prints kappa = J_U/(T_N - T_1) for a chain of length 1; its exponents need the gradient per
-/// cell, hence the factor N. Both are stored. Currents are means over the two openings [eq. 26].
+/// cell, hence the factor N. Currents are means over the two openings [eq. 26].
 ///
 /// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 31], which at gamma
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
-/// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. Quantities
-/// named *_plain do without. kappa is NaN, and the reason is printed, where reservoirs do not impose a
-/// difference of temperature, or where it is less than five of its standard errors.
+/// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. kappa is
+/// NaN, and the reason is printed, where reservoirs do not impose a difference of temperature, or where it is
+/// less than five of its standard errors.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -46,69 +46,36 @@ std::string reason_without_kappa(const OpenChain& chain) {
 
 double rise(TallyMeans mean) { return mean[tallies.temperature][1] - mean[tallies.temperature][0]; }
 
-double rise_of_particles(TallyMeans mean) {
-  const auto energy = mean[tallies.arriving_energy], arrivals = mean[tallies.arrivals];
-  return energy[1] / arrivals[1] - energy[0] / arrivals[0];
-}
-
-/// -J_U `factor` over a rise of temperature; NaN unless the rise is at least five of its standard errors,
+/// -J_U times the number of cells over the rise of temperature; NaN unless the rise is at least five of its standard errors,
 /// because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0 with one
 /// replica.
-Group::Array current_per_rise(const Records& records, double (*of)(TallyMeans), double factor, bool defined) {
-  const Estimate found = jackknife(records, [of](TallyMeans mean) { return std::vector{of(mean)}; });
+Group::Array current_per_rise(const Records& records, double cells, bool defined) {
+  const Estimate found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
   const double error = records.size() > 1 ? found.standard_error.front() : 0;
   const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
   return [=](TallyMeans mean) {
-    return std::vector{resolved ? -mean[tallies.energy_current][0] / of(mean) * factor
+    return std::vector{resolved ? -mean[tallies.energy_current][0] / rise(mean) * cells
                                 : std::numeric_limits<double>::quiet_NaN()};
   };
 }
 
-/// Currents, temperatures of the end scatterers and conductivities.
-void add_conductivity(Group& group, const OpenChain& chain, const std::string& suffix,
-                      const std::string& remark) {
-  const bool defined = reason_without_kappa(chain).empty();
-  const auto element = [&](const std::string& name, const char* units, const std::string& description,
-                           Tally tally, std::size_t i) {
-    group.quantity(name + suffix, units, description + remark,
-                   [=](TallyMeans mean) { return mean[tally][i]; });
-  };
-  const auto ratio = [&](const std::string& name, const std::string& description, auto to, double factor) {
-    group.quantities({{name + suffix, "energy/(time temperature)", description + remark}},
-                     [=](const Records& records) { return current_per_rise(records, to, factor, defined); });
+/// Currents, temperatures of the end scatterers and the conductivity.
+Group currents_and_conductivity(const OpenChain& chain) {
+  Group group([](const Records& records) {
+    return reduce_variance(records, {{tallies.measured(), tallies.controls()}});
+  });
+  const auto element = [&](const char* name, const char* units, const char* description, Tally tally,
+                           std::size_t i) {
+    group.quantity(name, units, description, [=](TallyMeans mean) { return mean[tally][i]; });
   };
   element("energy_current", "energy/time", "J_U, positive to the right", tallies.energy_current, 0);
   element("particle_current", "1/time", "J_n, positive to the right", tallies.particle_current, 0);
   element("temperature_first", "temperature", "<P^2>/M of the first scatterer", tallies.temperature, 0);
   element("temperature_last", "temperature", "<P^2>/M of the last scatterer", tallies.temperature, 1);
-  ratio("kappa", "-J_U N / (T_N - T_1)", rise, chain.cells);
-  ratio("kappa_printed", "-J_U / (T_N - T_1), the paper's definition", rise, 1);
-  ratio("kappa_particle", "-J_U N / difference of <p^2>/m of the arrivals", rise_of_particles, chain.cells);
-}
-
-/// Adds the correlation coefficients r over replicas of what a conductivity is calculated from, with the
-/// error of normal records, (1 - r^2)/sqrt(R - 1); NaN if one does not vary. Errors of functions of several
-/// follow from them.
-void add_correlations(Group& group) {
-  const std::string description = "0: J_U, 1: J_n, 2: T_1, 3: T_N";
-  const Axis one{"quantity", "1", description, {0, 1, 2, 3}}, other{"other", "1", description, {0, 1, 2, 3}};
-  group.statistics(
-      {{"correlation", "1", "Correlation coefficients over replicas", {one, other}}},
-      [](const Records& records) {
-        const Columns columns =
-            columns_of({tallies.energy_current, tallies.particle_current, tallies.temperature});
-        Eigen::MatrixXd x = centred(standardised(records, columns));
-        for (auto column : x.colwise()) column /= column.norm();
-        const Eigen::MatrixXd products = x.transpose() * x;
-        Estimate found;
-        for (Eigen::Index i = 0; i < products.rows(); ++i)
-          for (Eigen::Index k = 0; k < products.cols(); ++k) {
-            const double r = i == k ? std::round(products(i, k)) : products(i, k);  // NaN stays NaN
-            found.mean.push_back(r);
-            found.standard_error.push_back((1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1));
-          }
-        return found;
-      });
+  group.quantities({{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1)"}},
+                   [cells = chain.cells, defined = reason_without_kappa(chain).empty()](
+                       const Records& records) { return current_per_rise(records, cells, defined); });
+  return group;
 }
 
 /// What restricts the meaning of the results.
@@ -128,15 +95,8 @@ Study conductivity(const StationaryParameters& parameters) {
   validate(parameters);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
-  Group corrected([](const Records& records) {
-    return reduce_variance(records, {{tallies.measured(), tallies.controls()}});
-  });
-  Group plain;
-  add_conductivity(corrected, chain, "", "");
-  add_correlations(corrected);
-  add_conductivity(plain, chain, "_plain", ", without control variates");
   Study study = stationary_study(
-      parameters, tallies, [=] { return EndsAndOpenings(chain, window); }, {corrected, plain},
+      parameters, tallies, [=] { return EndsAndOpenings(chain, window); }, {currents_and_conductivity(chain)},
       reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
   study.remarks = [chain](const Results& results) { return remarks(chain, results); };
   return study;

@@ -1,12 +1,12 @@
-/// Displacement of a tagged particle: moments <x^q>, q = 1, 2, 4, of the unwrapped displacement x(t) since
-/// the end of the relaxation, averaged over all particles, on a logarithmic grid of times.
+/// Displacement of a tagged particle: <x^2> of the unwrapped displacement x(t) since the end of the
+/// relaxation, averaged over all particles, on a logarithmic grid of times.
 ///
 /// The closed chain conserves the total momentum [eq. 4]. The paper's random initial state gives it a value
 /// of order sqrt(nN T), and the centre of mass of the particles drifts [eq. 21, eq. 22]. The square of the
 /// mean displacement of a replica's particles is stored; its subtraction does not restore diffusion [eq. 23],
 /// whereas --zero-total-momentum removes the drift itself. The drift is common to all particles of a replica
 /// and dominates the noise. It is correlated with the total momentum, whose mean square is known, so that it
-/// is a control variate [eq. 33]; quantities named *_plain do without.
+/// is a control variate [eq. 33].
 ///
 /// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t [eq. 19]: 1 is diffusion,
 /// more is superdiffusion, and t/ln t has less; it depends on the age of the chain [eq. 15, eq. 20]. Where
@@ -35,10 +35,8 @@ struct Parameters : ClosedParameters {
 struct Tallies : ClosedTallies {
   Axis time;
   Tally square = tally("variance", {time}, "length^2", "<x^2>, no mean subtracted");
-  Tally fourth = tally("fourth_moment", {time}, "length^4", "<x^4>");
   Tally centre_square =
       tally("centre_of_mass", {time}, "length^2", "Mean square of the particles' mean displacement");
-  Tally mean = tally("mean_displacement", {time}, "length", "<x>; 0 by symmetry");
   ScalarTally momentum_square =
       tally("momentum_square", "1", "Square of the total momentum over its mean, minus 1; mean 0");
 
@@ -46,9 +44,9 @@ struct Tallies : ClosedTallies {
       : time{"time", "time", "Time since the end of the relaxation", times} {}
 };
 
-/// Means over particles of powers of the displacement x: x^2, x^4, x.
+/// Means over particles of the displacement x and of its square.
 struct Displacement {
-  double square = 0, fourth = 0, mean = 0;
+  double square = 0, mean = 0;
 };
 
 /// Observer that follows the displacement of every particle of a closed run, unwrapped from the ring, from
@@ -63,18 +61,17 @@ class TaggedParticles {
 
   void on_flight(const Departure& departure) { cells_[departure.particle] += departure.cells; }
 
-  /// Moments of the displacement at `time`, to which the run has advanced.
+  /// The displacement at `time`, to which the run has advanced.
   Displacement displacement(double time) const {
     const std::vector<double> now = run_.chain().positions_from_targets(run_.clock(time));
     Displacement sums;
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const double x = static_cast<double>(cells_[i]) * cell_length_ + now[i] - start_[i];
       sums.square += x * x;
-      sums.fourth += x * x * x * x;
       sums.mean += x;
     }
     const auto particles = static_cast<double>(start_.size());
-    return {sums.square / particles, sums.fourth / particles, sums.mean / particles};
+    return {sums.square / particles, sums.mean / particles};
   }
 
  private:
@@ -92,9 +89,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
     run.observe(particles, time);
     const Displacement mean = particles.displacement(time);
     sums[tallies.square][k] = mean.square;
-    sums[tallies.fourth][k] = mean.fourth;
     sums[tallies.centre_square][k] = mean.mean * mean.mean;
-    sums[tallies.mean][k] = mean.mean;
   }
   sums[tallies.momentum_square] = run.momentum_control();
 }
@@ -102,9 +97,8 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
 /// Plain records replace corrected ones if a corrected mean of squares is negative, as may happen with few
 /// replicas of few particles.
 Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
-  const Columns squares = columns_of({tallies.square, tallies.fourth, tallies.centre_square});
-  const Columns measured = columns_of({tallies.square, tallies.fourth, tallies.centre_square, tallies.mean});
-  Group::Prepared reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
+  const Columns squares = columns_of({tallies.square, tallies.centre_square});
+  Group::Prepared reduced = reduce_variance(plain, {{squares, columns_of({tallies.momentum_square})}});
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
   return possible ? reduced
@@ -120,16 +114,12 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
     return fit_power(times, mean[tallies.square], fit_from, times.back());
   };
 
-  Group group([=](const Records& records) { return controlled(records, tallies); }), plain;
-  for (const Tally each : {tallies.square, tallies.fourth, tallies.centre_square, tallies.mean})
-    group.quantity(tallies, each);
+  Group group([=](const Records& records) { return controlled(records, tallies); });
+  for (const Tally each : {tallies.square, tallies.centre_square}) group.quantity(tallies, each);
   group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.square]); });
   group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);
-  plain.quantity("variance_plain", {tallies.time}, "length^2", "<x^2>, without the control variate",
-                 mean_of(tallies.square));
-  plain.quantity("alpha_plain", "1", "alpha, without the control variate", alpha);
-  return {group, plain};
+  return {group};
 }
 
 Study displacement(const Parameters& parameters) {

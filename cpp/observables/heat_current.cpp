@@ -1,16 +1,14 @@
-/// Integrated currents of heat and particles through a closed chain in the stationary state: Q and Q_n, the
-/// integrals over a time t of J_q = sum of u (u^2/2 - T) and J_n = sum of u, as mean squares per cell over
-/// all origins of time in a record and over replicas.
+/// Integrated heat current of a closed chain in the stationary state: Q, the integral over a time t of J_q =
+/// sum of u (u^2/2 - T), as a mean square per cell over all origins of time in a record and over replicas.
 ///
 /// Where collisions conserve momentum, mode coupling predicts [eq. M28]
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
-/// elsewhere A = 0, for gamma = N: passing changes the transport coefficients. J_n keeps a part proportional
-/// to the total momentum, which is subtracted exactly [eq. M31]. The totals of a ring fluctuate: at fixed
-/// totals <Q^2> would be smaller by a part of order t^2/N. Sound must not travel around the ring within the
-/// longest time. Without conserved momentum it decays, but after many collisions, unless the direction of a
-/// particle is drawn in each.
+/// elsewhere A = 0, for gamma = N: passing changes the transport coefficients. The totals of a ring
+/// fluctuate: at fixed totals <Q^2> would be smaller by a part of order t^2/N. Sound must not travel around
+/// the ring within the longest time. Without conserved momentum it decays, but after many collisions, unless
+/// the direction of a particle is drawn in each.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,7 +17,7 @@
 #include <span>
 
 #include "model/rules.hpp"
-#include "observables/heat_current/currents.hpp"
+#include "observables/heat_current/heat_current.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
 #include "sampling/equilibrium_parameters.hpp"
@@ -33,30 +31,22 @@ struct Parameters : EquilibriumParameters {
   double fit_from = 16;
 
   Parameters() : EquilibriumParameters({1, 2, 4, 8, 16, 32, 64}) {}
-
-  /// Q_n per time and total momentum, 2 zeta/(2 zeta + M) [eq. M31]; 0 where momentum is not conserved.
-  double carried_by_momentum() const {
-    if (!conserves_momentum()) return 0;
-    return 2 * zeta() / (2 * zeta() + scatterer_mass());
-  }
 };
 
 struct Tallies : ClosedTallies {
   Axis time;
   Tally heat = tally("heat_variance", {time}, "energy^2 length^2",
                      "<Q^2>/N: mean square of the heat that passes in a time, per cell");
-  Tally number = tally("number_variance", {time}, "length^2",
-                       "<Q_n^2>/N without the part of the total momentum, if it is conserved");
 
   explicit Tallies(const std::vector<double>& times)
-      : time{"time", "time", "Time over which the currents are integrated", times} {}
+      : time{"time", "time", "Time over which the current is integrated", times} {}
 };
 
-/// Mean over all origins of the square of a sum over `lag` successive values, each less `drift`.
-double mean_square(std::span<const double> sums, std::size_t lag, double drift) {
+/// Mean over all origins of the square of a sum over `lag` successive values.
+double mean_square(std::span<const double> sums, std::size_t lag) {
   double squares = 0;
   for (std::size_t j = 0; j + lag < sums.size(); ++j) {
-    const double difference = sums[j + lag] - sums[j] - static_cast<double>(lag) * drift;
+    const double difference = sums[j + lag] - sums[j];
     squares += difference * difference;
   }
   return squares / static_cast<double>(sums.size() - lag);
@@ -74,16 +64,12 @@ void observe(const Parameters& parameters, const Tallies& tallies, const std::ve
   const double interval = parameters.times.front(), cells = parameters.chain().cells;
   const std::size_t intervals = parameters.intervals(windows);
   const Blocks blocks(0, static_cast<double>(intervals) * interval, intervals);
-  const double carried = parameters.carried_by_momentum();
-  const double drift = carried > 0 ? carried * run.chain().invariants().momentum * blocks.length() : 0;
-  Currents currents(run, parameters.temperature, blocks);
-  run.observe(currents);
-  currents.finish();
-  const std::vector<double> heat = sums_of(currents.heat()), number = sums_of(currents.number());
-  for (std::size_t k = 0; k < windows.size(); ++k) {
-    sums[tallies.heat][k] = mean_square(heat, windows[k], 0) / cells;
-    sums[tallies.number][k] = mean_square(number, windows[k], drift) / cells;
-  }
+  HeatCurrent current(run, parameters.temperature, blocks);
+  run.observe(current);
+  current.finish();
+  const std::vector<double> heat = sums_of(current.integrals());
+  for (std::size_t k = 0; k < windows.size(); ++k)
+    sums[tallies.heat][k] = mean_square(heat, windows[k]) / cells;
 }
 
 /// Fit of (M28) to the heat from a time on: y/t = 4.5 A t^(1/3) + 2 D, where the variance of y is taken as
@@ -121,7 +107,6 @@ std::vector<Group> variances(const Parameters& parameters, const Tallies& tallie
   };
   Group group;
   group.quantity(tallies, tallies.heat);
-  group.quantity(tallies, tallies.number);
   group.quantity("local_exponent", {middle}, "1", "d ln <Q^2> / d ln t between two times",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.heat]); });
   group.quantity("amplitude", "1",
@@ -155,10 +140,10 @@ Study heat_current(const Parameters& parameters) {
 
 int main(int argc, char** argv) {
   StudyProgram program("heat_current",
-                       "Heat and particles that pass in a time in a closed chain in equilibrium");
+                       "Heat that passes in a time in a closed chain in equilibrium");
   Parameters parameters;
   declare(program.options(), parameters,
-          "Times over which the currents are integrated, multiples of the first");
+          "Times over which the current is integrated, multiples of the first");
   declare_gamma(program.options(), parameters.ring.scattering, positive);
   program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });

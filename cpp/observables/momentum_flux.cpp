@@ -73,11 +73,9 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
                           columns_of({tallies.injection})};
   Group fluxes([=](const Records& records) { return reduce_variance(records, by_bin); });
   Group moments([=](const Records& records) { return reduce_variance(records, {by_all}); });
-  Group plain;
   fluxes.quantity("flux", bins, units, "F_N, crossings per unit time and momentum",
                   all(bins, &Reading::flux));
   fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-", all(bonds, &Reading::jump));
-  plain.quantity("flux_plain", bins, units, "F_N without control variates", all(bins, &Reading::flux));
   moments.quantity("rate", halves, "1/time", "Crossings by direction", all(halves, &Reading::rate));
   moments.quantity("square", halves, "momentum^2", "<p^2> by direction", all(halves, &Reading::square));
   moments.quantity("kurtosis", halves, "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half",
@@ -88,7 +86,7 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
                      return std::accumulate(each.begin(), each.end(), 0.0) /
                             static_cast<double>(tallies.bonds());
                    });
-  return {fluxes, moments, plain};
+  return {fluxes, moments};
 }
 
 Study momentum_flux(const Parameters& parameters) {

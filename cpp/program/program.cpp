@@ -126,15 +126,11 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"compiler", std::string(build_info.compiler)},
       {"flags", std::string(build_info.flags)},
       {"libraries", std::string(build_info.libraries)},
-      {"seed", outcome.seed},
-      {"streams", outcome.streams},
       {"events", outcome.events},
       {"target_quantity", outcome.target_quantity},
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},
       {"converged", std::string(names.at(static_cast<std::size_t>(outcome.convergence)))},
-      {"units", std::string("m = k_B = 1")},
-      {"documentation", std::string("docs/format.md of lorentz-gas")},
   };
   for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
   file.attribute("/provenance", "digest", file.digest());

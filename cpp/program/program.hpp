@@ -18,8 +18,6 @@ enum class Convergence { reached, not_reached, no_target };
 /// Results of a run, and their provenance in the output file.
 struct Outcome {
   Results results{};
-  std::uint64_t seed = 0;
-  std::string streams{};  // of random numbers
   std::uint64_t events = 0;
   std::string target_quantity{};
   double target_error = 0;    // NaN without a target

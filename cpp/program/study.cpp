@@ -17,7 +17,6 @@
 #include <thread>
 #include <utility>
 
-#include "numerics/random.hpp"
 #include "program/build_info.hpp"
 #include "program/errors.hpp"
 #include "program/stopping_rule.hpp"
@@ -232,9 +231,7 @@ void StudyProgram::checkpoint_on_exit(const std::string& why) {
 /// From the first replicas, which are finished. A resumed run may have others, of later batches.
 Outcome StudyProgram::estimate(std::uint64_t replicas) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Outcome outcome{.seed = seed_,
-                  .streams = RandomStream::description,
-                  .target_quantity = study_.target,
+  Outcome outcome{.target_quantity = study_.target,
                   .target_error = target_error_ > 0 ? target_error_ : none};
   Records records(study_.tallies.width(), replicas);
   for (std::uint64_t index = 0; index < replicas; ++index) {

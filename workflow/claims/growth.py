@@ -97,11 +97,6 @@ def superdiffusive(data: Data) -> list[Estimate]:
     return numbers
 
 
-def at_fixed_density(data: Data) -> list[Estimate]:
-    """Exponents of kappa at a density that does not depend on N: beta - 1 in rings."""
-    return [_of_kappa(ring) for ring in _longest(data.of("momentum", *ELASTIC))]
-
-
 def without_momentum(data: Data) -> list[Estimate]:
     """Local exponent of kappa where a particle passes a scatterer with the probability DISTURBED, which conserves momentum, minus that where
     this fraction of the collisions reverses the scatterer, which does not: of chains between the two largest sizes that both have, and
@@ -141,12 +136,6 @@ def _disturbed(data: Data, passing: str, reversal: str) -> tuple[list[Result], l
 def _middles(ring: Result) -> list[float]:
     """Middles of the octaves of a ring."""
     return [*map(float, ring["local_exponent"].axes["middle"])]
-
-
-def _of_kappa(ring: Result) -> Estimate:
-    """The exponent beta - 1 of kappa over the last octave of a ring."""
-    label = f"β - 1, {_gas(ring)}, t = {_last_time(ring):.0f}"
-    return estimate(ring, "local_exponent", -1, label).over(1, 1)
 
 
 def _longest(rings: Sequence[Result]) -> list[Result]:

@@ -2,7 +2,7 @@
 against CPU time; distances from a reference; bias against cost of the relaxation time and of the first time of a fit.
 
 The time is that of each run on the machine that made it, from the file of its cost (docs/format.md), so that this panel alone differs
-between machines. Control variates are used by programs where they can; the same runs also have the estimates without them.
+between machines.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import listed
 from workflow.lib.figure import Parts, main, plots
 from workflow.lib.load import FormatError, Result, cpu_seconds
 
@@ -26,14 +25,6 @@ LOOKS = {
     "amplitude": ("v", style.GREEN, "$A$"),
     OCTAVE: ("D", style.ORANGE, r"$\beta$, last octave"),
 }  # marker, colour and symbol by quantity
-SYMBOLS = {
-    "mu": "μ",
-    "alpha": "α",
-    "kappa": "κ",
-    "amplitude": "the amplitude A of ⟨Q²⟩",
-    OCTAVE: "its last exponent β",
-}  # in the caption
-PLAIN = "_plain"  # suffix of estimates without control variates
 GAMMAS = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
 PAPER_POINTS = 4200
 
@@ -48,8 +39,8 @@ def seconds(result: Result) -> float:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run and estimate: with control variates, where the program uses them, and without. `replicas` and the uncertainty of
-    the error, relative to it, are those of sampling programs, `points` of the kinetic solver."""
+    """One row per run and estimate. `replicas` and the uncertainty of the error, relative to it, are those of sampling programs, `points` of
+    the kinetic solver."""
     rows = []
     for result in results:
         provenance = result.provenance
@@ -63,7 +54,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             rows.append(row | {"points": int(result["momentum_points"].mean)})
             continue
         name = str(provenance["target_quantity"])
-        for quantity in (name, f"{name}{PLAIN}", OCTAVE):
+        for quantity in (name, OCTAVE):
             if quantity in result.quantities:
                 estimate, count = result[quantity], result.replicas
                 value, absolute = float(estimate.mean.flat[-1]), float(estimate.error.flat[-1])
@@ -74,24 +65,16 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots errors with control variates, or of quantities without any, as full symbols, and without control variates as open ones.
-    Lines: 1/sqrt(time) through the mean of the logarithms."""
+    """Plots errors. Lines: 1/sqrt(time) through the mean of the logarithms."""
     for quantity, part in table.groupby("quantity", sort=False):
-        plain = quantity.endswith(PLAIN)
-        marker, color, symbol = LOOKS[quantity.removesuffix(PLAIN)]
-        look = style.points(marker, color, "white" if plain else None, label=None if plain else symbol)
-        axes.errorbar(part.cpu_seconds, part.error, part.error_error, **look)
+        marker, color, symbol = LOOKS[quantity]
+        axes.errorbar(
+            part.cpu_seconds, part.error, part.error_error, **style.points(marker, color, label=symbol)
+        )
         law = np.exp(np.average(np.log(part.error * np.sqrt(part.cpu_seconds)), weights=part.replicas))
-        line: style.Look = {
-            "color": color,
-            "linestyle": "dotted" if plain else "solid",
-            "linewidth": 0.8,
-            "zorder": 1,
-        }
-        axes.plot(part.cpu_seconds, law / np.sqrt(part.cpu_seconds), **line)
-    axes.plot(
-        [], [], color="grey", linestyle="dotted", marker="o", markerfacecolor="white", label="without control"
-    )
+        axes.plot(
+            part.cpu_seconds, law / np.sqrt(part.cpu_seconds), color=color, linewidth=0.8, zorder=1
+        )
     axes.set(xlabel="CPU time / s", ylabel="relative error")
     if table.error.notna().any():  # matplotlib has no logarithmic axis without points
         axes.set(xscale="log", yscale="log")
@@ -101,7 +84,7 @@ def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
 
 def draw_distances(axes: Axes, table: pd.DataFrame) -> None:
     """Plots the distance of every estimate from that with the most replicas, over the errors of both."""
-    for quantity, part in table[~table.quantity.str.endswith(PLAIN)].groupby("quantity", sort=False):
+    for quantity, part in table.groupby("quantity", sort=False):
         marker, color, _ = LOOKS[quantity]
         reference = part.loc[part.replicas.idxmax()]
         others = part.drop(reference.name)
@@ -157,14 +140,6 @@ def draw_first_times(axes: Axes, results: Sequence[Result]) -> None:
     style.label_within_decades(axes.xaxis)
 
 
-def gain(table: pd.DataFrame, quantity: str) -> float:
-    """Ratio of the times to one error without and with control variates, from the runs with the most replicas."""
-    most = (
-        table[table.replicas == table.replicas.max()].drop_duplicates("quantity").set_index("quantity").error
-    )
-    return float((most[f"{quantity}{PLAIN}"] / most[quantity]) ** 2)
-
-
 @plots("conductivity spreading persistence heat kinetic relaxation first-time")
 def draw(results: Sequence[Result]) -> Parts:
     series = {
@@ -179,12 +154,8 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_first_times(axes["d"], series["first-time"])
     draw_kinetic(axes["e"], kinetic)
     style.letter(*axes.values())
-    controlled = [name for name in LOOKS if f"{name}{PLAIN}" in set(sampled.quantity)]
-    gains = [
-        f"{saved:.2g} for {SYMBOLS[name]}" for name in controlled if np.isfinite(saved := gain(sampled, name))
-    ] or ["an unknown size"]
     caption = f"""
-        Control variates (full symbols) divide the CPU time to a given error by {listed(gains)}. (a) Lines show 1/√t. (b) Distances from
+        Errors fall with the number of replicas. (a) Lines show 1/√t. (b) Distances from
         the most precise estimates are divided by their errors; grey: two errors. (c) Crosses: short relaxations, whose test of stationarity fails.
         (d) A depends on the first time of the fit. (e) For the kinetic equation the paper has {PAPER_POINTS} points."""
     return figure, table.drop(columns="value"), caption

@@ -18,13 +18,11 @@ from workflow.lib.load import Result
 from workflow.physics import setting
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
-PAPER, EQUAL, EXCHANGE = "as in the paper", "equal temperatures", "sigma = 0"
+PAPER, EQUAL = "as in the paper", "equal temperatures"
 OFTEN = 0.01  # fraction of the largest flux above which the ratio to a Gaussian is shown
 
 
 def case(result: Result) -> str:
-    if result.parameters["sigma"] == 0:
-        return EXCHANGE
     left, right = result.ends("temperature")
     return EQUAL if left == right else PAPER
 
@@ -69,7 +67,7 @@ def caption(results: Sequence[Result], outgoing: float) -> str:
         by up to {outgoing:.2g} % (dotted: equal temperatures)."""
 
 
-@plots("paper equal exchange")
+@plots("paper equal")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.5, width=1.1)

@@ -94,20 +94,25 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     )
 
 
-def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFrame]) -> str:
     sigmas = [float(result.parameters["sigma"]) for result in results]
     powers = listed(f"−{POWERS[sigma]} at σ = {format_number(sigma)}" for sigma in sigmas if sigma in POWERS)
     exponents = listed(style.format_quantity(result["exponent"]) for result in results)
     pairs = zip(results, tables, strict=True)
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
+    younger = format_number(results[0].parameters["relaxation-time"] / young.parameters["relaxation-time"])
+    age = f"{style.format_quantity(young['exponent'])} at σ = {format_number(young.parameters['sigma'])}"
     return f"""
         The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
-        they are {exponents} in the shaded windows.{"".join(excess)} {ERRORS}"""
+        they are {exponents} in the shaded windows; {younger} times earlier, {age}.{"".join(excess)} {ERRORS}"""
 
 
-@plots("all")
+@plots("all young")
 def draw(results: Sequence[Result]) -> Parts:
-    results = sorted(results, key=lambda result: result.parameters["sigma"])
+    young = next(result for result in results if result.series == "young")
+    results = sorted(
+        (result for result in results if result is not young), key=lambda result: result.parameters["sigma"]
+    )
     tables = [tabulate(result) for result in results]
     figure, (above, *strips) = style.stacked(2.4, *[1] * len(results), height=0.8 + 0.5 * len(results))
     for strip, result, table, mark in zip(strips, results, tables, cycle(MARKS), strict=False):
@@ -130,7 +135,7 @@ def draw(results: Sequence[Result]) -> Parts:
         axes.axvspan(cut(results[0]), end, **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")
-    return figure, pd.concat(tables), caption(results, tables)
+    return figure, pd.concat(tables), caption(results, young, tables)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,6 @@ from workflow.physics import setting
 BELOW = 0.7  # ratio of a guide to the lowest point
 GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's exponents by gamma
 LOOKS = {str(gamma): look for gamma, look in style.BY_GAMMA.items()}
-KAPPA = ("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
 
 
 def local_exponents(size: ArrayLike, value: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, ...]:
@@ -54,7 +53,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows: list[dict[str, Any]] = []
     for result in results:
         row = {"gamma": setting.gamma(result), "cells": int(result.parameters["cells"])}
-        rows.append(row | {"usable": result.usable} | result.columns(*KAPPA))
+        rows.append(row | {"usable": result.usable} | result.columns("kappa", "energy_current"))
     table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
     table[columns] = np.nan  # stays NaN if fewer than two sizes are usable

@@ -1,7 +1,6 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later times and, at gamma = N, of ten
-times the energy. Times without a moving peak, whose height is NaN, are left out.
+Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later times. Times without a moving peak, whose height is NaN, are left out.
 """
 
 from collections.abc import Sequence
@@ -40,8 +39,7 @@ def tabulate(result: Result) -> pd.DataFrame:
         part[f"{column}_error"] = pd.Series(result[name].error)
     part = part.merge(by_octave(result).rename(columns={"until": "time"}), on="time", how="left")
     part.insert(0, "scatterer_temperature", str(start(result)))
-    for name in ("pulse-energy", "cells"):
-        part.insert(1, name.replace("-", "_"), result.parameters[name])
+    part.insert(1, "cells", result.parameters["cells"])
     return part
 
 
@@ -56,8 +54,7 @@ def by_octave(result: Result) -> pd.DataFrame:
 
 def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame) -> None:
     """Plots powers of t from one point on, above those of the longest times, and their exponents."""
-    longest = table[table.cells == table.cells[table.pulse_energy == table.pulse_energy.iloc[0]].max()]
-    seen = longest.dropna(subset="peak")
+    seen = table[table.cells == table.cells.max()].dropna(subset="peak")
     time = seen.time / seen.time.min()
     start = ABOVE * max((seen.peak / time**slope).max() for slope in SLOPES[gamma]) / 1e3
     for slope, (name, exponent) in SLOPES[gamma].items():
@@ -95,9 +92,7 @@ def caption(results: Sequence[Result]) -> str:
         law, guides = "t^(−2/3)", "Dashed lines show 2/3 (sound) and 1/2 (shock)."
     else:
         law, guides = "t^(−1)", "The dashed line shows 1."
-    pulse = rest.parameters["pulse-energy"]
-    alike = [result for result in results if result.parameters["pulse-energy"] == pulse]
-    long = max(alike, key=lambda result: result.parameters["cells"])
+    long = max(results, key=lambda result: result.parameters["cells"])
     longer = (
         f"; that of the Gaussian start in {long.parameters['cells']} cells {exponents(long)}"
         if long is not rest

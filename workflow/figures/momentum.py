@@ -2,8 +2,7 @@
 
 Particles that pass a scatterer with the probability 1 - gamma/N disturb motion as reversals of the momentum of the scatterer in a fraction
 epsilon of the collisions do, but conserve momentum. Chains have a fixed spacing. Q is the integral of
-J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28], and D = <Q²>/2Nt at a common
-epsilon t. The table also has rings of other gases.
+J_q = sum v (v²/2 − T) over all particles of a ring [model.md]. The table also has rings of other gases.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,17 +16,14 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts, main, plots
-from workflow.lib.fit import fit_power, format_with_error
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import rings, setting
 
 CURVE = ["passing", "epsilon"]  # columns that identify a curve of chains
-COMMON = 5  # εt, in λ/√T, at which D of different ε are compared
-LARGEST = 0.1  # ε of the fit to D; with more the decay ends before ⟨Q²⟩ follows a power law
-LATE = 8  # first time, in λ/√T, that is plotted against εt; before, particles fly between few collisions
 # Markers and colours where momentum is conserved, by ascending probability of passing, and where it is not, by descending ε.
 CONSERVED = [("o", style.BLACK), ("s", style.BLUE), ("D", style.SKY)]
-BROKEN = [("<", style.PURPLE), ("v", style.VERMILLION), ("^", style.ORANGE), (">", style.GREEN)]
+BROKEN = [("v", style.VERMILLION), ("^", style.ORANGE)]
 
 
 class Case(NamedTuple):
@@ -73,35 +69,6 @@ def common_sizes(table: pd.DataFrame) -> set[int]:
     return set.intersection(*(set(part.cells) for _, part in table.groupby(CURVE)))
 
 
-def collapse(control: pd.DataFrame, epsilon: float, unit: float) -> tuple[pd.Series, pd.Series, pd.Series]:
-    """εt, ε^(1/3) <Q²>/2t and its error, after the first collisions. unit: √T/λ."""
-    late = control[control.time * unit >= LATE]
-    factor = epsilon ** (1 / 3) / (2 * late.time)
-    return epsilon * late.time, factor * late.heat_variance, factor * late.heat_variance_error
-
-
-def diffusion(control: pd.DataFrame, unit: float) -> pd.DataFrame:
-    """D at the common εt, by ε: interpolated on logarithmic axes, with the larger relative error of both neighbours."""
-    rows = []
-    for fraction, part in control[control.epsilon > 0].groupby("epsilon"):
-        scaled = fraction * unit * part.time.to_numpy()
-        if scaled[0] < COMMON <= scaled[-1]:
-            logarithms = (np.log(values) for values in (scaled, part.heat_variance / (2 * part.time)))
-            value = np.exp(np.interp(np.log(COMMON), *logarithms))
-            last = int(np.searchsorted(scaled, COMMON))
-            relative = (part.heat_variance_error / part.heat_variance).iloc[last - 1 : last + 1].max()
-            rows.append({"epsilon": fraction, "diffusion": value, "diffusion_error": value * relative})
-    return pd.DataFrame(rows, columns=["epsilon", "diffusion", "diffusion_error"])
-
-
-def exponent(diffusions: pd.DataFrame) -> str:
-    """Exponent of D against ε up to LARGEST."""
-    fitted = diffusions[diffusions.epsilon <= LARGEST].dropna()
-    if len(fitted) < 2:
-        return "(unknown)"
-    return fit_power(fitted.epsilon, fitted.diffusion, fitted.diffusion_error).text
-
-
 def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
     return table[(table.passing == case.passing) & (table.epsilon == case.epsilon)]
 
@@ -122,7 +89,7 @@ def last_exponent(control: pd.DataFrame, case: Case) -> str:
     return format_with_error(end.local_exponent - 1, end.local_exponent_error)
 
 
-def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFrame) -> str:
+def caption(chains: pd.DataFrame, control: pd.DataFrame) -> str:
     sizes = common_sizes(chains)
     passing = chains.passing[chains.passing > 0].min()
     found = chains.epsilon[chains.epsilon > 0]
@@ -133,8 +100,7 @@ def caption(chains: pd.DataFrame, control: pd.DataFrame, diffusions: pd.DataFram
     return f"""
         Open symbols show reversals, which break momentum. (a) In chains κ({max(sizes)})/κ({min(sizes)}) is
         {elastic} for elastic collisions, {passed} with {100 * passing:g} % passing, {broken} with {100 * epsilon:g} % reversed (ε). (b) In rings ⟨Q²⟩ ∼ t^β;
-        for the last two β − 1 ends at {ends[0]} and {ends[1]}. (c) At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {exponent(diffusions)}; black: elastic.
-        {ERRORS}"""
+        for the last two β − 1 ends at {ends[0]} and {ends[1]}. {ERRORS}"""
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
@@ -147,29 +113,19 @@ def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) 
     axes.set_ylabel(rf"$\kappa(N)/\kappa({min(common_sizes(chains))})$")
 
 
-def draw_rings(
-    against_time: Axes, collapsed: Axes, control: pd.DataFrame, look: dict[Case, style.Look], unit: float
-) -> None:
-    """Plots β - 1 of every case, and the collapse of those with reversals beside the curve of elastic collisions, which is scaled with the
-    smallest ε."""
+def draw_rings(axes: Axes, control: pd.DataFrame, look: dict[Case, style.Look]) -> None:
+    """Plots β - 1 of every case."""
     for (passing, epsilon), part in control.groupby(["passing", "epsilon"]):
         case = Case(passing, epsilon)
         points = look[case] | {"linestyle": "-", "linewidth": 0.6, "label": case.label}
-        against_time.errorbar(part.middle, part.local_exponent - 1, part.local_exponent_error, **points)
-        if epsilon:
-            collapsed.errorbar(*collapse(part, epsilon, unit), **points)
-    elastic = of_case(control, Case(0, 0))
-    x, y, _ = collapse(elastic, control.epsilon[control.epsilon > 0].min(), unit)
-    collapsed.plot(x, y, color=CONSERVED[0][1], zorder=1)
-    style.guide_at(against_time, 0, "0")
-    style.guide_at(against_time, 1 / 3, "1/3")
-    against_time.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$", ylim=(-0.2, 0.75))
-    collapsed.set(xscale="log", xlabel=r"$\epsilon t$")
-    collapsed.set_ylabel(rf"$\epsilon^{{1/3}} \langle Q^2 \rangle/2Nt$ ({style.UNITS})")
+        axes.errorbar(part.middle, part.local_exponent - 1, part.local_exponent_error, **points)
+    style.guide_at(axes, 0, "0")
+    style.guide_at(axes, 1 / 3, "1/3")
+    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$", ylim=(-0.2, 0.75))
 
 
-RINGS = "light light-long light-longest dense-longest dilute-longest sparse-longest passing reversal reversal-others reversal-rare "
-CHAINS = "chain-elastic chain-passing chain-reversal chain-reversal-rare"
+RINGS = "light light-long light-longest dense-longest dilute-longest sparse-longest passing reversal "
+CHAINS = "chain-elastic chain-passing chain-reversal"
 
 
 @plots(RINGS + CHAINS)
@@ -179,26 +135,21 @@ def draw(results: Sequence[Result]) -> Parts:
     table = rings.tabulate(shown)
     broken = table[table.epsilon > 0].iloc[0]
     control = table[(table.zeta == broken.zeta) & (table.mass == broken.mass)]
-    unit = float(np.sqrt(shown[0].parameters["temperature"]) / shown[0].parameters["cell-length"])
-    diffusions = diffusion(control, unit)
     look = looks(
         {Case(*pair) for part in (chains, control) for pair in zip(part.passing, part.epsilon, strict=True)}
     )
-    figure, panels = plt.subplots(1, 3, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT))
+    figure, panels = plt.subplots(1, 2, figsize=(1.6 * style.COLUMN, style.HEIGHT))
     draw_chains(panels[0], chains, look)
-    draw_rings(panels[1], panels[2], control, look, unit)
+    draw_rings(panels[1], control, look)
     legends = [zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels]
     handles = {text: handle for legend in legends for handle, text in legend}
     order = [case.label for case in sorted(look, key=lambda case: (case.epsilon, case.passing))]
     labels = sorted(handles, key=lambda text: order.index(text) if text in order else len(order))
     figure.legend([handles[text] for text in labels], labels, loc="outside upper center", ncols=4)
     style.letter(*panels)
-    whole = pd.concat([chains, table, diffusions])
-    return figure, whole, caption(chains, control, diffusions)
+    return figure, pd.concat([chains, table]), caption(chains, control)
 
 
 if __name__ == "__main__":
     own = dict.fromkeys(("passing", "epsilon", "zeta", "mass", "growth"), "1")
-    main(
-        draw, "Heat transport with and without conserved momentum", diffusion="energy^2 length^2/time", **own
-    )
+    main(draw, "Heat transport with and without conserved momentum", **own)

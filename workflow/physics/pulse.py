@@ -12,7 +12,6 @@ LOOKS = {
     "rest": ("s", style.VERMILLION, "white", "from rest, as in the paper"),
     "gaussian": ("o", style.BLUE, style.BLUE, "Gaussian start"),
     "long": ("^", style.SKY, style.SKY, "Gaussian, longer ring"),
-    "strong": ("D", style.ORANGE, "white", "ten times the energy"),
 }
 
 

@@ -29,8 +29,6 @@ SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number g
 FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 and less than 1"}
 OF_SERIES: Schema = {
     "program": True,
-    # Equal runs, which differ by their seeds.
-    "runs": {"type": "integer", "minimum": 1, "allowed": "a whole number of at least 1"},
     "target-scale": SCALE,  # reference value of ERROR where the target may be 0
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}

@@ -37,7 +37,7 @@ from workflow.pipeline.sources import source_hash
 RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
 RENDERING = f"{RENDERED}/{{quality}}/{{panel}}.{{identity}}"  # stem of the files of a panel
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
-QUALITIES = ("smoke", "standard", "paper", "deep")
+QUALITIES = ("smoke", "standard", "paper")
 RELEASE = "paper"  # its quality
 NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which reports of other qualities state
 REPORT_SOURCES = (
@@ -269,17 +269,15 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
         own = dict(panel["series"][series])
         own.pop("program", None)
         replicated, scale = "replicas" in options_of_programs()[program], own.pop("target-scale", None)
-        equal_runs = range(1, own.pop("runs", 1) + 1)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))
         physics = {**panel.get("common", {}), **own}
         options = {**physics, **effort}
         replaced += [f"{key} of {series}" for key in effort if key in physics]
         listed = [key for key, value in options.items() if isinstance(value, list)]
-        for *values, number in itertools.product(*(options[key] for key in listed), equal_runs):
+        for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
-            numbered = chosen if len(equal_runs) == 1 else {**chosen, "run": number}
-            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(numbered.items()))])
+            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(chosen.items()))])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = selection.complete(name, run, given, scale) if replicated else given

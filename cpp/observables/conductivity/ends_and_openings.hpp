@@ -22,15 +22,10 @@ struct EndTallies : TallySchema {
   Tally energy_current = tally("energy_current", "energy/time", "J_U, mean of both openings");
   Tally particle_current = tally("particle_current", "1/time", "J_n, mean of both openings");
   Tally temperature = tally("temperature", {end}, "temperature", "Time average of P^2/M");
-  Tally arriving_energy =
-      tally("arriving_energy", {end}, "energy", "Sum of u^2 over arrivals at the scatterer");
-  Tally arrivals = tally("arrivals", {end}, "1", "Arrivals at the scatterer");
   Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
   Tally scattering = tally("scattering", {end}, "energy", "Scattering martingale; mean 0");
 
-  Columns measured() const {
-    return columns_of({energy_current, particle_current, temperature, arriving_energy, arrivals});
-  }
+  Columns measured() const { return columns_of({energy_current, particle_current, temperature}); }
   Columns controls() const { return columns_of({injection, scattering}); }
 };
 
@@ -56,8 +51,6 @@ class EndsAndOpenings {
       const double time = path.time_at(end.mark);
       if (!window_.contains(time)) continue;
       end.chance.arrival(time, path.velocity, path.last == end.mark);
-      end.arrivals += 1;
-      end.arriving_energy += path.velocity * path.velocity;
     }
   }
 
@@ -81,8 +74,6 @@ class EndsAndOpenings {
     sums.set(tallies.injection, injections_.deviations(chain_, duration));
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const EndCell& end = ends_[i];
-      sums[tallies.arriving_energy][i] = end.arriving_energy;
-      sums[tallies.arrivals][i] = end.arrivals;
       sums[tallies.temperature][i] = end.scatterer_energy.sums().front() / duration;
       sums[tallies.scattering][i] = end.chance.sum();
     }
@@ -94,7 +85,6 @@ class EndsAndOpenings {
     std::int64_t mark;
     TimeIntegral scatterer_energy;  // of U^2
     ScatteringControl chance;
-    double arrivals = 0, arriving_energy = 0;  // sum of u^2
 
     EndCell(std::uint32_t cell, const OpenChain& chain, const Window& window)
         : scatterer(cell),

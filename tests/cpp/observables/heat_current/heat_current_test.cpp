@@ -1,4 +1,4 @@
-#include "observables/heat_current/currents.hpp"
+#include "observables/heat_current/heat_current.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,33 +10,28 @@
 #include "model/rules/elastic.hpp"
 #include "reference/heap_simulator.hpp"
 
-namespace currents_test {
+namespace heat_current_test {
 
 using namespace lorentz;
 
 constexpr double temperature = 1.5, end_time = 6;
 constexpr std::size_t count = 4;
 
-struct Sums {
-  std::vector<double> heat = std::vector<double>(count, 0), number = heat;
-};
-
-/// Integrated currents by the reference simulator, to which every flight adds its overlap with a block.
+/// Integrated current by the reference simulator, to which every flight adds its overlap with a block.
 /// overlap: false selects a mutant that counts a flight in the block in which it ends.
-Sums by_flights(const ClosedParameters& parameters, const Blocks& blocks, const StreamKey& key,
+std::vector<double> by_flights(const ClosedParameters& parameters, const Blocks& blocks, const StreamKey& key,
                 bool overlap) {
   const ClosedChain chain = parameters.chain();
   const PhasePoint start = stationary_start(chain, parameters.stationary_measure(), key);
   const double sigma = Elastic(chain.sigma).sigma();
   auto simulator = reference::heap_simulator<long double>(sigma, chain.cell_length, start);
-  Sums sums;
+  std::vector<double> sums(count, 0);
   const auto fly = [&](double v, double begin, double end) {
     for (std::size_t b = 0; b < count; ++b) {
       const double inside = std::min(end, blocks.edge(b + 1)) - std::max(begin, blocks.edge(b));
       const bool ends = end > blocks.edge(b) && end <= blocks.edge(b + 1);
       const double duration = overlap ? std::max(0.0, inside) : ends ? end - begin : 0;
-      sums.heat[b] += v * (v * v / 2 - temperature) * duration;
-      sums.number[b] += v * duration;
+      sums[b] += v * (v * v / 2 - temperature) * duration;
     }
   };
   std::vector<double> since(start.particles.size(), 0), v;
@@ -59,8 +54,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-// The currents agree in every block, not only on average. The last block ends before the run does.
-TEST(Currents, AreThoseOfTheReferenceInEveryBlock) {
+// The current agrees in every block, not only on average. The last block ends before the run does.
+TEST(HeatCurrent, IsThatOfTheReferenceInEveryBlock) {
   for (const double sigma : {-0.6, 0.0, 0.5, 0.9}) {
     ClosedParameters parameters;
     parameters.ring = {.scattering = {.cells = 9, .sigma = sigma}, .cell_length = 0.7};
@@ -71,16 +66,14 @@ TEST(Currents, AreThoseOfTheReferenceInEveryBlock) {
     const Blocks blocks(0, 0.9 * end_time, count);
     const Replica replica{{5, 2}, [](double) {}};
     ClosedRun run(parameters, replica);
-    Currents currents(run, temperature, blocks);
-    run.observe(currents);
-    currents.finish();
-    const Sums flights = by_flights(parameters, blocks, replica.key, true);
-    EXPECT_LT(largest_difference(currents.heat(), flights.heat), 1e-9) << sigma;
-    EXPECT_LT(largest_difference(currents.number(), flights.number), 1e-9) << sigma;
-    const Sums mutant = by_flights(parameters, blocks, replica.key, false);
-    EXPECT_GT(largest_difference(currents.heat(), mutant.heat), 1e-3) << sigma;
-    EXPECT_GT(largest_difference(currents.number(), mutant.number), 1e-3) << sigma;
+    HeatCurrent current(run, temperature, blocks);
+    run.observe(current);
+    current.finish();
+    const std::vector<double> flights = by_flights(parameters, blocks, replica.key, true);
+    EXPECT_LT(largest_difference(current.integrals(), flights), 1e-9) << sigma;
+    const std::vector<double> mutant = by_flights(parameters, blocks, replica.key, false);
+    EXPECT_GT(largest_difference(current.integrals(), mutant), 1e-3) << sigma;
   }
 }
 
-}  // namespace currents_test
+}  // namespace heat_current_test

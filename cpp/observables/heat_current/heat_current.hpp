@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/observation.hpp"
+#include "sampling/closed_run.hpp"
+#include "statistics/time_integral.hpp"
+
+namespace lorentz {
+
+/// Observer of the total heat current of a closed chain, J_q = sum of u (u^2/2 - T) over all particles
+/// [eq. M21], which is constant between two collisions: its integrals over blocks of time are exact.
+class HeatCurrent {
+ public:
+  /// The run must be at the beginning of the first block.
+  HeatCurrent(const ClosedRun& run, double temperature, const Blocks& blocks)
+      : run_(run), temperature_(temperature), end_(blocks.edge(blocks.count())), heat_(blocks) {
+    for (const Particle& particle : run.chain().phase_point(run.clock(blocks.edge(0))).particles)
+      current_ += heat(particle.velocity);
+  }
+
+  void on_collision(const Collision& collision) {
+    heat_.advance(current_, collision.time - run_.clock(0));
+    current_ += heat(collision.particle_after) - heat(collision.particle_before);
+  }
+
+  /// Completes the last block.
+  void finish() { heat_.advance(current_, end_); }
+
+  /// Integrals over the blocks.
+  const std::vector<double>& integrals() const { return heat_.sums(); }
+
+ private:
+  double heat(double u) const { return u * (0.5 * u * u - temperature_); }
+
+  const ClosedRun& run_;
+  double temperature_, end_;
+  double current_ = 0;
+  TimeIntegral heat_;
+};
+
+}  // namespace lorentz
