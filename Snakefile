@@ -1,13 +1,13 @@
-"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render build/figures/<quality>/
-<panel>.<identity>.*, and these are copied to figures/<quality>/<panel>.*
+"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render figures/<quality>/<panel>.*
 
-Names contain a hash of their inputs; missing files are made. Neither time stamps nor Snakemake's own records decide.
+`.venv/bin/snakemake figures`, or a panel by its name, or a file: `.venv/bin/snakemake fig05 --config quality=smoke`. Names contain a hash of
+their inputs, that of a figure the name of its record, <panel>.<identity>.json; missing files are made. Neither time stamps nor Snakemake's own
+records decide.
 """
 
 import os
 import shlex
 import sys
-from pathlib import Path
 
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.described import BuildError
@@ -16,18 +16,15 @@ from workflow.lib.files import in_one_line
 from workflow.pipeline.lock import lock_products
 from workflow.lib.identity import IDENTITY
 from workflow.pipeline.plan import (
-    RENDERING,
+    REPORT,
     RESULT,
-    SUFFIXES,
     data_of,
     default_panels,
-    rendering_command,
+    files_of,
     load_plan,
     panel_named,
-    products_of,
-    report_stem,
+    rendering_of,
     runs_of,
-    stem_of,
 )
 from workflow.pipeline.program import command_line, require_built, threads_of
 
@@ -41,8 +38,8 @@ try:
         panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()
     ] or default_panels(PLAN)
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
-    STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
-    REPORT = report_stem(PLAN, QUALITY)
+    FILES = {name: files_of(PLAN, name, QUALITY) for name in (*PLAN, REPORT)}
+    JOBS = {name: rendering_of(PLAN, name, QUALITY).json for name in PLAN}
     if workflow.is_main_process:
         runs = runs_of(PLAN, PANELS, QUALITY).items()
         for program in {run.program for path, run in runs if not os.path.exists(path)}:
@@ -55,11 +52,6 @@ except OSError as error:  # a panel without a script, or another command
     sys.exit(in_one_line(error))
 
 
-def inputs_of(panels):
-    """Results too: Snakemake does not remake a missing result whose figure is there."""
-    return [ancient(path) for path in products_of(PLAN, panels, QUALITY)]
-
-
 wildcard_constraints:
     quality=QUALITY,
     panel="[^/.]+",
@@ -69,27 +61,73 @@ wildcard_constraints:
 
 localrules:
     figures,
-    render,
+    results,
     report,
-    report_page,
-    gallery,
 
 
 onstart:
     stop_at_first_signal()
 
 
-# All panels, or --config panel="fig05 fig08". Without outputs it is always executed: it copies missing and edited files to
-# figures/<quality>.
+def present(files):
+    """Inputs that are remade if they are missing, whatever their times."""
+    return [ancient(path) for path in files]
+
+
 rule figures:
     input:
-        inputs_of(PANELS),
-    params:
-        stems=[STEMS[name] for name in PANELS],
+        [present([*DATA[name], *FILES[name]]) for name in PANELS],
+
+
+# All that the panels plot. python -m workflow renders them by one process.
+rule results:
+    input:
+        [present(DATA[name]) for name in PANELS],
+
+
+for panel_name in PLAN:
+
+    rule:
+        name:
+            panel_name
+        localrule: True
+        input:
+            present(DATA[panel_name]),
+        output:
+            FILES[panel_name],
+        priority: 10**9  # before any run
+        params:
+            job=JOBS[panel_name],
+        shell:
+            ".venv/bin/python -m workflow.lib.render {params.job:q}"
+
+
+rule report:
+    input:
+        [present([*DATA[name], *FILES[name]]) for name in PLAN],
+    output:
+        FILES[REPORT],
     shell:
-        ".venv/bin/python -m workflow.pipeline.publish {params.stems:q}"
+        ".venv/bin/python -m workflow.report.write --quality {QUALITY:q}"
 
 
-include: "workflow/pipeline/rules/simulate.smk"
-include: "workflow/pipeline/rules/render.smk"
-include: "workflow/pipeline/rules/report.smk"
+def run_of(wildcards):
+    return PLAN[wildcards.panel].run(wildcards.run)
+
+
+# One run of a program. Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the
+# checkpoint of an interrupted program. The log is beside the result: otherwise Snakemake deletes the empty folder before the checkpoint is
+# written.
+rule simulate:
+    output:
+        RESULT,
+    log:
+        RESULT.removesuffix("h5") + "log",
+    priority: lambda wildcards: -[*PLAN].index(wildcards.panel)  # earlier panels first
+    group:
+        lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None  # on a cluster, several in a job
+    threads: lambda wildcards: threads_of(run_of(wildcards))
+    params:
+        command=lambda wildcards, threads: shlex.join(command_line(run_of(wildcards), threads)),
+    shell:
+        "{params.command} --progress log --output {output:q} 2> {log:q} || [ $? = 4 ]"

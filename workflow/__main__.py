@@ -12,6 +12,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections.abc import Iterable
 
 from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
@@ -22,16 +23,16 @@ from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
     OVERRIDES,
+    REPORT,
     Selection,
     default_panels,
+    files_of,
     load_plan,
-    products_of,
-    report_stem,
+    rendering_of,
     require_panel,
-    stem_of,
+    runs_of,
 )
 from workflow.pipeline.program import build
-from workflow.pipeline.publish import publish
 
 SELECTION = ("QUALITY", *map(str.upper, OVERRIDES))
 EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
@@ -125,17 +126,16 @@ def require_profile(profile: str) -> None:
         )
 
 
-def snakemake(target: str, options: argparse.Namespace) -> int:
-    """Makes a target of the Snakefile."""
+def simulate(panels: list[str], options: argparse.Namespace) -> int:
+    """Makes the missing results of panels by Snakemake. Returns the exit status."""
     on_cluster = options.profile != "default"
     words = [f"--workflow-profile=profiles/{options.profile}"]
     words += [f"--{'jobs' if on_cluster else 'cores'}={options.jobs}"] if options.jobs else []
     slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
     resources = [f"{name}={value}" for name, value in slurm.items() if value]
     words += ["--default-resources", *resources] if resources else []
-    words += ["--config", f"quality={options.quality}"]
-    words += [f"panel={' '.join(options.panels)}"] if options.panels else []
-    words += ["--", "figures" if target == "panel" else target]  # some panels, or all
+    words += ["--config", f"quality={options.quality}", f"panel={' '.join(panels)}"]
+    words += ["--", "results"]
     from snakemake.cli import main as run  # noqa: PLC0415  0.5 s
 
     sys.argv = ["snakemake", *words]  # Snakemake prints its command
@@ -149,28 +149,32 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
 
 
 def make(target: str, options: argparse.Namespace) -> int:
-    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make. After SEED and REPLICAS
-    compares with the results of the quality. Raises OSError."""
-    names, quality = options.panels or [*options.plan], options.quality
-    stems = [stem_of(options.plan, name, quality) for name in names]
-    planned = products_of(options.plan, names, quality)
-    if target == "report":
-        stems.append(report_stem(options.plan, quality))
-        planned.append(f"{stems[-1]}.html")
-    missing = [path for path in planned if not os.path.exists(path)]
+    """Makes what is missing: results, panels, report; with DRY=yes, lists it. After SEED and REPLICAS compares with the results of the
+    quality. Raises ConfigurationError, OSError."""
+    plan, quality, names = options.plan, options.quality, options.panels or [*options.plan]
+    files = {name: _missing(files_of(plan, name, quality)) for name in names}
+    results = _missing(runs_of(plan, names, quality))
+    pages = _missing(files_of(plan, REPORT, quality)) if target == "report" else []
     if options.dry:
-        print("\n".join(missing) or "Nothing to be made")
+        print(
+            "\n".join([*results, *(path for each in files.values() for path in each), *pages])
+            or "Nothing to be made"
+        )
         return 0
-    for panel in (options.plan[name] for name in options.panel.split() if options.plan[name].replaced):
+    for panel in (plan[name] for name in options.panel.split() if plan[name].replaced):
         print(
             f"{panel.name}: other {', '.join(panel.replaced)} in quality/{quality.partition('_')[0]}.yaml than in paper.yaml",
             flush=True,
         )
-    if missing or target == "gallery":
-        status = snakemake(target, options)
-    else:  # by the same names Snakemake would find nothing to make; its import takes a second
-        publish(stems)
-        status = 0
+    status = simulate(names, options) if results else 0
+    jobs = [rendering_of(plan, name, quality) for name in names if files[name]]
+    if ready := [job.json for job in jobs if not _missing(job.data)]:
+        command = [".venv/bin/python", "-m", "workflow.lib.render", *ready]
+        status = subprocess.run(command, check=False).returncode or status
+    if status == 0 and (pages or target == "gallery"):
+        command = [".venv/bin/python", "-m", "workflow.report.write", "--quality", quality]
+        command += ["--gallery"] if target == "gallery" else []
+        status = subprocess.run(command, check=False).returncode
     if status == 0:
         print(DONE[target].format_map(vars(options)))
         if target in ("figures", "panel") and (options.seed or options.replicas):
@@ -178,6 +182,10 @@ def make(target: str, options: argparse.Namespace) -> int:
 
             status = compare.main(options)
     return status
+
+
+def _missing(paths: Iterable[str]) -> list[str]:
+    return [path for path in paths if not os.path.exists(path)]
 
 
 def main() -> int:

@@ -20,7 +20,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
         options = {"particles-per-cell": path.stem, "output": path}
         subprocess.run(command_line("persistence", options), check=True)
     stem = tmp_path / "smoke/panel"
-    command = [sys.executable, "-P", "-m", "workflow.figures.fig05"]
+    command = [sys.executable, "-P", "-m", "workflow.lib.render", "fig05"]
     subprocess.run([*command, "--output", stem, "--data", *paths], cwd=ROOT, check=True)
 
     contents = {kind: stem.with_suffix(f".{kind}").read_bytes() for kind in ("pdf", "png", "svg", "csv")}
@@ -53,7 +53,7 @@ def test_doubts_about_the_results_of_other_panels(tmp_path: Path) -> None:
         options = {"cells": 4, "replicas": 2, "observation-time": 2, "output": path}
         subprocess.run(command_line("steady_profile", options), check=True)
     stem = tmp_path / "smoke/panel"
-    command = [sys.executable, "-P", "-m", "workflow.figures.fig02_upper"]
+    command = [sys.executable, "-P", "-m", "workflow.lib.render", "fig02_upper"]
     subprocess.run([*command, "--output", stem, "--data", *paths], cwd=ROOT, check=True)
     assert (
         DOUBTS[NOT_TESTED] + ": deterministic and rare."

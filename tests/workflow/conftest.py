@@ -40,19 +40,15 @@ SCRIPT = '''"""A panel of a test."""
 import matplotlib.pyplot as plt
 import pandas as pd
 
-from workflow.lib.figure import main
+TITLE = "A panel"
 
 
 def draw(results):
     figure, _ = plt.subplots()
     return figure, pd.DataFrame({"replicas": [result.replicas for result in results]}), "A test."
-
-
-if __name__ == "__main__":
-    main(draw, "A panel")
 '''
 EFFORT = "default: {replicas: 4}\npanels:\n  energy: {replicas: 4}\n"
-PRODUCT = re.compile(rf"([^/\s]+/[^/\s]+)\.{IDENTITY}\.(h5|pdf)")
+PRODUCT = re.compile(rf"([^/\s]+/[^/\s]+)\.{IDENTITY}\.(h5|json)")
 Done = subprocess.CompletedProcess[str]
 
 
@@ -103,7 +99,7 @@ class Project:
 
     def products(self) -> dict[str, bytes]:
         """Results and figures, without records, which have the commit."""
-        files = self.files("data/smoke", "figures/smoke", "build/figures/smoke")
+        files = self.files("data/smoke", "figures/smoke")
         return {path: content for path, content in files.items() if not path.endswith((".json", ".log"))}
 
     def one(self, pattern: str) -> Path:
@@ -152,7 +148,7 @@ def new_project(folder: Path) -> Project:
     shutil.copy(ROOT / "data/claims.csv", folder / "data")
     (folder / "workflow/config/quality").mkdir(parents=True)
     (folder / "workflow/config/paper.yaml").write_text(PLAN)
-    for quality in ("smoke", "standard", "paper", "deep"):
+    for quality in ("smoke", "standard", "paper"):
         (folder / f"workflow/config/quality/{quality}.yaml").write_text(EFFORT)
     for panel in ("mu", "energy"):
         (folder / f"workflow/figures/{panel}.py").write_text(SCRIPT)

@@ -16,7 +16,7 @@ from tests.workflow.conftest import ROOT, Project
         ("panel PANEL=fig5", "fig5 is not a panel; did you mean fig05?"),
         ("figures PANEL=fig03", "PANEL has no effect on figures"),
         ("figures JOBS=0", "JOBS=0 is invalid; give a whole number, at least 1"),
-        ("figures QUALITY=fast", "fast is not a quality; choose one of smoke, standard, paper, deep"),
+        ("figures QUALITY=fast", "fast is not a quality; choose one of smoke, standard, paper"),
         ("figures PROFILE=slurm", "sbatch is not in PATH"),
     ],
 )  # fmt: skip

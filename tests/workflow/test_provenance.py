@@ -13,13 +13,12 @@ import pytest
 from tests.workflow.conftest import ROOT, Project
 from workflow.lib.load import digest, load, nodes_of
 from workflow.lib.save import reduced
-from workflow.pipeline.provenance import audit
 from workflow.pipeline.provenance.compare import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
 MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"
 FEW, AGEING = "data/smoke/energy/few.*.h5", "data/smoke/energy/ageing.*.h5"
-RECORD, TABLE = "build/figures/smoke/mu.*.json", "build/figures/smoke/mu.*.csv"
+RECORD, TABLE = "figures/smoke/mu.*.json", "figures/smoke/mu.csv"
 
 
 def edit_value(project: Project) -> None:
@@ -48,10 +47,9 @@ def change_record(**changes: object) -> Edit:
 
 
 def change_all_tables(project: Project) -> None:
-    """In the store, in the copy, and its hash in the record."""
+    """In the file, and its hash in the record."""
     content = project.one(TABLE).read_bytes() + b"9\n"
-    for path in (project.one(TABLE), project.folder / "figures/smoke/mu.csv"):
-        path.write_bytes(content)
+    project.one(TABLE).write_bytes(content)
     files = json.loads(project.one(RECORD).read_text())["files"]
     change_record(files=files | {"csv": hashlib.sha256(content).hexdigest()})(project)
 
@@ -68,7 +66,6 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
     "a panel that has only lent its runs, and files of the user": (
         [
             remove("figures/smoke/mu.*"),
-            remove("build/figures/smoke/mu.*"),
             write("data/smoke/mu/mine.h5"),
             write("figures/smoke/mine.pdf"),
         ],
@@ -81,7 +78,7 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
             ("missing", OTHER_MU, ""),
         ],
     ),
-    "copies": (
+    "files": (
         [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")], "status", 1,
         [("edited", "figures/smoke/mu.csv", "differs from its hash"), ("missing", "figures/smoke/energy.svg", "")],
     ),
@@ -91,7 +88,7 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
             lambda project: project.entry("figures"),
             substitute("workflow/figures/mu.py", "Another", "A test"),
         ],
-        "status", 1, [("stale", "figures/smoke/mu.pdf", "that of other sources")],
+        "status", 1, [("stale", "figures/smoke/mu.pdf", "changed: workflow/figures/mu.py")],
     ),
     "sources and options": (
         [
@@ -114,7 +111,7 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         [change_all_tables, change_record(renderer="Python 2")], "audit PANEL=mu", 3,
         [("not checked", "figures/smoke/mu.csv", "rendered with Python 2, this is Python 3")],
     ),
-    "no figures": ([remove("figures/smoke/*"), remove("build/figures/smoke/*")], "status", 3, []),
+    "no figures": ([remove("figures/smoke/*")], "status", 3, []),
 }  # fmt: skip
 
 
@@ -136,24 +133,18 @@ def test_states(project: Project, case: str) -> None:
 
 
 def test_status_covers_the_report(project: Project) -> None:
-    write("figures/smoke/report.html")(project)
+    """Detected mistakes: a report of former sources is unmodified; an edited one is fresh."""
+    project.entry("report")
+    project.entry("status")
+    page = project.folder / "figures/smoke/report.html"
+    page.write_bytes(content := page.read_bytes() + b"mine")
+    assert "edited: figures/smoke/report.html" in project.entry("status", status=1)
+    project.entry("report")
+    assert page.read_bytes() == content  # edited files are kept
+    substitute("data/claims.csv", "fig. 1", "fig. 2")(project)
     assert "stale: figures/smoke/report.html" in project.entry("status", status=1)
-
-
-def test_a_report_of_former_sources_is_stale_and_another_edited(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    store, page = tmp_path / "build/figures/smoke", tmp_path / "figures/smoke/report.html"
-    monkeypatch.setattr(audit, "report_stem", lambda *_: "build/figures/smoke/report.0123456789ab")
-    for folder in (store, page.parent):
-        folder.mkdir(parents=True)
-    for identity, content in (("0123456789ab", "present"), ("ba9876543210", "former")):
-        (store / f"report.{identity}.html").write_text(content)
-    for content, state in (("present", None), ("former", "stale"), ("mine", "edited")):
-        page.write_text(content)
-        fault = audit.fault_of_report({}, "smoke")
-        assert (fault and fault.state) == state
+    project.entry("report")
+    project.entry("status")
 
 
 def provenance(project: Project, file: Path, status: int = 0) -> str:
@@ -170,13 +161,15 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     assert all(f"--seed {seed}" in printed for seed in seeds)
     (tmp_path / "of the gallery.png").write_bytes(reduced(copy))
     assert provenance(project, tmp_path / "of the gallery.png") == printed
-    copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
+    project.entry("figures")
+    assert provenance(project, copy).startswith("unmodified, stale: changed: workflow/lib\n")
+    copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
     printed = provenance(project, copy, status=1)
     assert printed.startswith("edited, stale: changed: workflow/lib, results\n")
     assert "sources of persistence differ here" in printed
-    remove(RECORD)(project)
+    remove("build/records/smoke/*")(project)
     assert "panel mu, quality smoke" in provenance(project, copy, status=3)
 
 
@@ -264,21 +257,20 @@ def test_prune_removes_what_no_plan_names_and_no_file_of_the_user(project: Proje
         "data/smoke/mu/mine.h5",
         "figures/smoke/mu.copy.png",
         "figures/smoke/mine.csv",
-        "build/figures/smoke/mine.csv",
     }
     former = {
         "data/smoke/former/a.0123456789ab.h5",
-        "build/figures/smoke/former.0123456789ab.pdf",
+        "figures/smoke/former.0123456789ab.json",
         "figures/smoke/former.csv",
     }
-    kept = own | {*project.files("data", "figures", "build/figures")}
+    kept = own | {*project.files("data", "figures")}
     (project.folder / "data/smoke/former").mkdir()
     for path in own | former:
         (project.folder / path).write_text("# panel former, quality smoke, identity 0123456789ab\n")
     assert all(path in project.entry("prune", "DRY=yes") for path in former)
-    assert {*project.files("data", "figures", "build/figures")} == kept | former
+    assert {*project.files("data", "figures")} == kept | former
     project.entry("prune")
-    assert {*project.files("data", "figures", "build/figures")} == kept
+    assert {*project.files("data", "figures")} == kept
 
 
 def test_results_in_git_are_of_the_release_and_stay_after_a_change(project: Project) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project, share_packages
 from workflow.lib.load import load
-from workflow.pipeline.plan import CONFIGURATION, load_plan, stem_of
+from workflow.pipeline.plan import CONFIGURATION, load_plan, record_of
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
@@ -87,7 +87,7 @@ def test_an_observable_of_your_own(own: Project) -> None:
         2 * float(energy.standard_error), rel=1e-9
     )
     # The other panels stay as they are.
-    assert stem_of(load_plan("smoke"), "fig05", "smoke") in own.entry("figures", "DRY=yes")
+    assert record_of(load_plan("smoke"), "fig05", "smoke") in own.entry("figures", "DRY=yes")
 
 
 @pytest.mark.long

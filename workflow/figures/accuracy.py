@@ -13,8 +13,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import FormatError, Result, cpu_seconds
+
+TITLE = "Accuracy against time"
+UNITS = {"cpu_seconds": "second", "error": "1", "points": "1"}
 
 OCTAVE = "local_exponent"  # of the heat in rings; its last octave has the largest error
 STARTS = {"warm": ("o", style.BLACK), "cold": ("s", style.BLUE), "empty": ("^", style.VERMILLION)}
@@ -72,9 +75,7 @@ def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
             part.cpu_seconds, part.error, part.error_error, **style.points(marker, color, label=symbol)
         )
         law = np.exp(np.average(np.log(part.error * np.sqrt(part.cpu_seconds)), weights=part.replicas))
-        axes.plot(
-            part.cpu_seconds, law / np.sqrt(part.cpu_seconds), color=color, linewidth=0.8, zorder=1
-        )
+        axes.plot(part.cpu_seconds, law / np.sqrt(part.cpu_seconds), color=color, linewidth=0.8, zorder=1)
     axes.set(xlabel="CPU time / s", ylabel="relative error")
     if table.error.notna().any():  # matplotlib has no logarithmic axis without points
         axes.set(xscale="log", yscale="log")
@@ -159,8 +160,3 @@ def draw(results: Sequence[Result]) -> Parts:
         the most precise estimates are divided by their errors; grey: two errors. (c) Crosses: short relaxations, whose test of stationarity fails.
         (d) A depends on the first time of the fit. (e) For the kinetic equation the paper has {PAPER_POINTS} points."""
     return figure, table.drop(columns="value"), caption
-
-
-if __name__ == "__main__":
-    pure = dict.fromkeys(("error", "points"), "1")
-    main(draw, "Accuracy against time", cpu_seconds="second", **pure)

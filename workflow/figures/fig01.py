@@ -14,9 +14,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
+
+TITLE = "Momentum distribution of the particles in a filling chain"
+UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
 
 FRONT = style.points("o", style.BLACK, "white")
 
@@ -95,8 +98,3 @@ def draw(results: Sequence[Result]) -> Parts:
         *rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3 * len(results) // 2
     )
     return figure, pd.concat(tables), caption(results)
-
-
-if __name__ == "__main__":
-    density = {"weighted_density": "1", "error": "1"}
-    main(draw, "Momentum distribution of the particles in a filling chain", momentum="momentum", **density)

@@ -14,9 +14,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
+
+TITLE = "Number of particles in a filling chain"
+UNITS = {"slope": "1", "slope_time": "time", "number": "1", "number_fitted": "1"}
 
 SURE = 3  # standard errors above which a curvature is significant
 APART = 3  # number of time steps of a slope; slopes between neighbouring times would have large errors
@@ -99,9 +102,3 @@ def draw(results: Sequence[Result]) -> Parts:
     rows[1, 0].legend(loc="lower right", handletextpad=0.2)
     style.letter(*rows.flat)
     return figure, pd.concat(tables), caption(results)
-
-
-UNITS = {"slope": "1", "slope_time": "time"}
-
-if __name__ == "__main__":
-    main(draw, "Number of particles in a filling chain", number="1", number_fitted="1", **UNITS)

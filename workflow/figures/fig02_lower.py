@@ -7,9 +7,12 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
+
+TITLE = "Density profiles"
+UNITS = dict.fromkeys(("x", "bulk", "relative"), "1")
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -55,7 +58,3 @@ def draw(results: Sequence[Result]) -> Parts:
     below.set(xlabel="$x$", ylabel=r"$\rho$ over bulk line")
     above.legend(loc="upper right")
     return figure, pd.concat(tables), caption(results)
-
-
-if __name__ == "__main__":
-    main(draw, "Density profiles", x="1", bulk="1", relative="1")

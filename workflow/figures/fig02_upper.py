@@ -10,10 +10,13 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, format_number, listed, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
+
+TITLE = "Temperature profiles"
+UNITS = {"x": "1"} | dict.fromkeys(("scatterer", "particle", "particle_minus_scatterer"), "temperature")
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -74,8 +77,3 @@ def draw(results: Sequence[Result]) -> Parts:
     below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure, pd.concat(tables), caption(results)
-
-
-if __name__ == "__main__":
-    kinds = ("scatterer", "particle", "particle_minus_scatterer")
-    main(draw, "Temperature profiles", x="1", **dict.fromkeys(kinds, "temperature"))

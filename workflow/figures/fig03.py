@@ -13,9 +13,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import baths, format_number, listed, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import setting
+
+TITLE = "Momentum distribution of the particles at both ends, by the kinetic equation"
+UNITS = {"gaussian": "1/(time momentum)"}
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 PAPER, EQUAL = "as in the paper", "equal temperatures"
@@ -88,8 +91,3 @@ def draw(results: Sequence[Result]) -> Parts:
     below.legend(loc="best")
     outgoing = float(departure[table.case == PAPER].abs().max())
     return figure, table, caption(results, outgoing)
-
-
-if __name__ == "__main__":
-    title = "Momentum distribution of the particles at both ends, by the kinetic equation"
-    main(draw, title, gaussian="1/(time momentum)")

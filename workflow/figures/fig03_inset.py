@@ -13,10 +13,14 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Parts, main, plots, require_elastic
+from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, deviations
+
+TITLE = "Deviation of finite chains from the kinetic equation"
+UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
+UNITS |= {"absolute_as_printed": "1/momentum"}
 
 SHOWN = 45  # largest momentum that is plotted
 LOWEST, HIGHEST = 7e-5, 0.08  # range of the deviations that are plotted
@@ -123,10 +127,3 @@ def draw(results: Sequence[Result]) -> Parts:
     style.letter(*panels.values())
     whole = amplitudes(table).rename(columns={"error": "amplitude_error"})
     return figure, table.merge(whole, on="cells").join(at_centre(table), on="cells"), caption(table, results)
-
-
-if __name__ == "__main__":
-    pure = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
-    main(
-        draw, "Deviation of finite chains from the kinetic equation", absolute_as_printed="1/momentum", **pure
-    )

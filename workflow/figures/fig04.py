@@ -14,11 +14,13 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.fluxes import at
+
+UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
 
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
@@ -183,7 +185,3 @@ def draw(results: Sequence[Result]) -> Parts:
 
 def title(results: Sequence[Result]) -> str:
     return f"Momentum distribution of the particles at both ends, γ = {at_ends(results).gamma.iloc[-1]}"
-
-
-if __name__ == "__main__":
-    main(draw, title, **dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)"))

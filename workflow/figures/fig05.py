@@ -8,10 +8,13 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Parts, main, plots, require_elastic
+from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 from workflow.physics.closed import persistence_law
+
+TITLE = "Persistence probability against the mass ratio"
+UNITS = dict.fromkeys(("law", "deviation", "law_at_local_energies"), "1")
 
 MARKS = [
     style.points(*look) for look in (("o", style.BLUE), ("s", style.VERMILLION, "white"), ("^", style.GREEN))
@@ -79,8 +82,3 @@ def draw(results: Sequence[Result]) -> Parts:
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
     return figure, table, caption(table, results)
-
-
-if __name__ == "__main__":
-    numbers = ("law", "deviation", "law_at_local_energies")
-    main(draw, "Persistence probability against the mass ratio", **dict.fromkeys(numbers, "1"))

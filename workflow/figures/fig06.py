@@ -13,9 +13,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, listed, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
+
+TITLE = "Waiting-time density for σ = 0 and 1/2"
+UNITS = dict.fromkeys(("fitted", "gaussian_start"), "1/time")
 
 Mark = tuple[str, str, str]  # marker, colour and dashes
 MARKS: list[Mark] = [
@@ -101,10 +104,9 @@ def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFr
     pairs = zip(results, tables, strict=True)
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
     younger = format_number(results[0].parameters["relaxation-time"] / young.parameters["relaxation-time"])
-    age = f"{style.format_quantity(young['exponent'])} at σ = {format_number(young.parameters['sigma'])}"
     return f"""
         The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
-        they are {exponents} in the shaded windows; {younger} times earlier, {age}.{"".join(excess)} {ERRORS}"""
+        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} {ERRORS}"""
 
 
 @plots("all young")
@@ -136,8 +138,3 @@ def draw(results: Sequence[Result]) -> Parts:
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")
     return figure, pd.concat(tables), caption(results, young, tables)
-
-
-if __name__ == "__main__":
-    laws = {"fitted": "1/time", "gaussian_start": "1/time"}
-    main(draw, "Waiting-time density for σ = 0 and 1/2", **laws)

@@ -11,9 +11,12 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
+
+TITLE = "Mean square displacement of a tagged particle"
+UNITS = {"fraction": "1", "slope_to_next": "1"}
 
 GUIDED = 100  # last time over the first time of the guides
 APART = 3  # factor between a guide and the last point
@@ -97,7 +100,3 @@ def draw(results: Sequence[Result]) -> Parts:
         *above.get_legend_handles_labels(), loc="outside upper left", ncols=2, title=title, alignment="left"
     )
     return figure, pd.concat(tables), caption(random, results)
-
-
-if __name__ == "__main__":
-    main(draw, "Mean square displacement of a tagged particle", fraction="1", slope_to_next="1")

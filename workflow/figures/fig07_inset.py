@@ -9,9 +9,11 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters, rule
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
+
+TITLE = "Exponent of the mean square displacement against the mass ratio"
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
@@ -90,7 +92,3 @@ def draw(results: Sequence[Result]) -> Parts:
     below.set_xticks(TICKS, [format_number(sigma) for sigma in TICKS])
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
     return figure, table, caption(shown, results)
-
-
-if __name__ == "__main__":
-    main(draw, "Exponent of the mean square displacement against the mass ratio")

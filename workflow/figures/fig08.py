@@ -15,10 +15,14 @@ from numpy.typing import ArrayLike
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
+
+TITLE = "Heat conductivity against the size of the chain"
+UNITS = dict.fromkeys(("exponent_to_next", "mean_field_exponent_to_next"), "1")
+UNITS |= {"mean_field_kappa": "energy/(time temperature)"}
 
 BELOW = 0.7  # ratio of a guide to the lowest point
 GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's exponents by gamma
@@ -114,13 +118,3 @@ def draw(results: Sequence[Result]) -> Parts:
     above.legend(handles[::-1], labels[::-1], loc="upper left")
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
     return figure, whole, caption(table, shown)
-
-
-if __name__ == "__main__":
-    units = {"exponent_to_next": "1", "mean_field_exponent_to_next": "1"}
-    main(
-        draw,
-        "Heat conductivity against the size of the chain",
-        mean_field_kappa="energy/(time temperature)",
-        **units,
-    )

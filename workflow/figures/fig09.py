@@ -14,13 +14,15 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
 from workflow.physics.mode_coupling import Chain
 from workflow.physics.pulse import in_order, label, look, look_of, start
+
+UNITS = {"distance": "1"}
 
 FAINT = 0.45
 SURE = 3  # standard errors above which a change of speed is significant
@@ -127,6 +129,5 @@ def draw(results: Sequence[Result]) -> Parts:
     return figure, pd.concat(tables), caption(results)
 
 
-if __name__ == "__main__":
-    title = "Energy difference after a pulse, {}"
-    main(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), distance="1")
+def title(results: Sequence[Result]) -> str:
+    return f"Energy difference after a pulse, {parameters(results[:1], 'gamma')}"

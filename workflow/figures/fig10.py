@@ -11,11 +11,14 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters
-from workflow.lib.figure import Parts, main
+from workflow.lib.figure import Parts
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.pulse import in_order, label, look_of, start
+
+UNITS = dict.fromkeys(("exponent_from_here", "octave_exponent"), "1")
+UNITS |= {"speed_to_next": "1/time", "octave_middle": "time"}
 
 # By gamma: slopes of the guides, the paper's first, with their labels.
 Guides = dict[float, tuple[str, str]]
@@ -125,12 +128,5 @@ def draw(results: Sequence[Result]) -> Parts:
     return figure, table, caption(results)
 
 
-if __name__ == "__main__":
-    units = {
-        "exponent_from_here": "1",
-        "octave_exponent": "1",
-        "speed_to_next": "1/time",
-        "octave_middle": "time",
-    }
-    title = "Damping of the moving peak of an energy pulse, {}"
-    main(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), **units)
+def title(results: Sequence[Result]) -> str:
+    return f"Damping of the moving peak of an energy pulse, {parameters(results[:1], 'gamma')}"

@@ -15,8 +15,14 @@ from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 
 from workflow.lib import style
 from workflow.lib.caption import format_number
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+
+TITLE = "World lines of particles in a closed and in an open chain"
+UNITS = dict.fromkeys(("start_time", "end_time"), "time") | dict.fromkeys(
+    ("start_position", "end_position"), "length"
+)
+UNITS |= {"particle": "1", "momentum": "momentum", "energy": "energy"}
 
 # The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones bright.
 COLOURS = LinearSegmentedColormap.from_list("energy", plt.get_cmap("plasma")(np.linspace(0, 0.88, 256)))
@@ -132,11 +138,3 @@ def draw(_: Sequence[Result]) -> Parts:
         next scatterer (grey), which is fixed in place, and the two exchange energy and momentum. Colours show energies. (a) The ring, joined at the
         dashed ends, holds {CELLS * PER_CELL} particles. (b) Baths, coloured by temperature, inject particles and absorb those that reach them."""
     return figure, table, caption
-
-
-if __name__ == "__main__":
-    units = dict.fromkeys(("start_time", "end_time"), "time") | dict.fromkeys(
-        ("start_position", "end_position"), "length"
-    )
-    own = {"particle": "1", "momentum": "momentum", "energy": "energy"}
-    main(draw, "World lines of particles in a closed and in an open chain", **units, **own)

@@ -15,10 +15,13 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import rings, setting
+
+TITLE = "Heat transport with and without conserved momentum"
+UNITS = dict.fromkeys(("passing", "epsilon", "zeta", "mass", "growth"), "1")
 
 CURVE = ["passing", "epsilon"]  # columns that identify a curve of chains
 # Markers and colours where momentum is conserved, by ascending probability of passing, and where it is not, by descending ε.
@@ -148,8 +151,3 @@ def draw(results: Sequence[Result]) -> Parts:
     figure.legend([handles[text] for text in labels], labels, loc="outside upper center", ncols=4)
     style.letter(*panels)
     return figure, pd.concat([chains, table]), caption(chains, control)
-
-
-if __name__ == "__main__":
-    own = dict.fromkeys(("passing", "epsilon", "zeta", "mass", "growth"), "1")
-    main(draw, "Heat transport with and without conserved momentum", **own)

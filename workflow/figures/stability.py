@@ -14,8 +14,11 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number, parameters, scientific
-from workflow.lib.figure import Parts, main, plots
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+
+TITLE = "Numerical stability"
+UNITS = {"collisions": "1"}
 
 COLLISIONS, MASSES = "collisions", "mass-ratio"
 SCALES = ("tiny", "small", "one", "large", "huge")
@@ -82,7 +85,3 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_scales(right, table[table.part.isin(SCALES)])
     style.letter(left, middle, right)
     return figure, table, caption(table, results)
-
-
-if __name__ == "__main__":
-    main(draw, "Numerical stability", collisions="1")

@@ -51,12 +51,9 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
     numbers = [name for name in table if not _is_label(table[name])]
     without = [name for name in numbers if name not in known]
     if without:
-        declared = ", ".join(
-            f'{name}="1"' if name.isidentifier() else f'**{{"{name}": "1"}}' for name in without
-        )
         raise UnitsError(
             f"the columns {', '.join(without)} have no units; name them after a quantity, or declare their units in the "
-            f"script: main(draw, title, {declared})"
+            f"script: UNITS = {json.dumps(dict.fromkeys(without, '1'))}"
         )
     units = {name: known[name] for name in numbers}
     for name, text in units.items():

@@ -11,6 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 DIGITS = 12  # 48 bits: two of a million names are equal with a probability of 0.2 %
 IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression of an identity
+FORMER = "build/records"  # folder of the records of former figures, of which there may be copies
 SHARED = ("workflow/lib", "workflow/physics", "uv.lock")  # on which all figures depend
 STATEMENT = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
 

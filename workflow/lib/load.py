@@ -182,12 +182,6 @@ def load(path: Path | str) -> Result:
         return Result(Path(path), parameters, provenance, read, units)
 
 
-def set_aside(path: Path, error: FormatError) -> str:
-    """Renames a refused result, so that the same command makes it again, and returns what happened. Raises OSError."""
-    refused = path.rename(f"{path}.refused")
-    return f"{str(error).removesuffix(REMEDY)}; renamed to {refused.name}"
-
-
 def load_provenance(path: Path | str) -> dict[str, Any]:
     """The provenance of a result file, which is checked as by load()."""
     with _verified(path) as (_, provenance, _):

@@ -1,7 +1,7 @@
-"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and their record as JSON.
+"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and their record, PANEL.IDENTITY.json.
 
 Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute path. Each file has a
-line with panel, quality and identity.
+line with panel, quality and identity. A panel has one record, which is written last: files without it are stale.
 """
 
 import io
@@ -20,9 +20,10 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from workflow.lib.files import write_together
-from workflow.lib.identity import ROOT, sha256, statement
+from workflow.lib.identity import FORMER, ROOT, sha256, siblings, statement
 
 CREATOR = "lorentz-gas"
+FORMATS = ("pdf", "png", "svg")
 WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
 RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
 
@@ -41,8 +42,8 @@ class Parents:
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg, .csv and .json, all or none. table: text from columns.as_csv()."""
-    panel, quality = stem.name.partition(".")[0], stem.parent.name
+    """Writes stem.pdf, .png, .svg, .csv and the record, all or none. table: text from columns.as_csv()."""
+    panel, quality = stem.name, stem.parent.name
     line = statement(panel, quality, parents.identity)
     pictures: dict[str, dict[str, Any]] = {
         "pdf": {
@@ -70,14 +71,22 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     ).encode()
     hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "renderer": renderer()}
-    record |= {"parents": hashes, "files": {kind: sha256(content) for kind, content in contents.items()}}
-    contents["json"] = as_text(record).encode()
-    write_together({stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()})
+    record |= {"commit": commit(), "renderer": renderer(), "parents": hashes}
+    write_product(stem, parents.identity, contents, record)
 
 
-def as_text(record: dict[str, Any]) -> str:
-    return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], record: dict[str, Any]) -> None:
+    """Writes the files of a panel or report by kind, and their record. The record of a former identity moves to FORMER, where provenance
+    finds it. Raises OSError."""
+    record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
+    text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+    path = stem.with_name(f"{stem.name}.{identity}.json")
+    for former in (sibling for sibling in siblings(path) if sibling != path):
+        archived = ROOT / FORMER / stem.parent.name / former.name
+        archived.parent.mkdir(parents=True, exist_ok=True)
+        former.replace(archived)
+    files = {stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()}
+    write_together(files | {path: text.encode()})
 
 
 def commit() -> str:

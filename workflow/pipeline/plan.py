@@ -3,7 +3,6 @@
 import hashlib
 import itertools
 import re
-import shlex
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -19,6 +18,7 @@ from workflow.lib.identity import (
     result_identity,
     sources_of_panel,
 )
+from workflow.lib.job import Job
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import (
     CONFIGURATION,
@@ -31,12 +31,12 @@ from workflow.pipeline.configuration import (
 )
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import NUMBER, evaluated
-from workflow.pipeline.publish import RENDERED
 from workflow.pipeline.sources import source_hash
 
 RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
-RENDERING = f"{RENDERED}/{{quality}}/{{panel}}.{{identity}}"  # stem of the files of a panel
-SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
+FIGURES = "figures"
+KINDS = ("pdf", "png", "svg", "csv")  # files of a panel
+REPORT = "report"  # a product with a record, as a panel
 QUALITIES = ("smoke", "standard", "paper")
 RELEASE = "paper"  # its quality
 NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which reports of other qualities state
@@ -217,36 +217,47 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
     return [*runs_of(plan, [name], quality)]
 
 
-def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
-    """Path of the files of a panel in the store, without suffix. Raises ConfigurationError, OSError."""
+def identity_of(plan: dict[str, Panel], name: str, quality: str) -> str:
+    """Identity of a panel or of the report. Raises ConfigurationError, OSError."""
+    if name == REPORT:
+        release = [] if quality == RELEASE else [NUMBERS]
+        paths = [path for path in (*REPORT_SOURCES, *release) if (ROOT / path).exists()]
+        panels = [identity_of(plan, panel, quality) for panel in plan]
+        return identity(panels, {path: content_hash(path) for path in paths})
+    return panel_identity(name, data_of(plan, name, quality), sources_of(plan[name]))
+
+
+def sources_of(panel: Panel) -> dict[str, str]:
+    """Hashes of what determines a panel besides its results. Raises ConfigurationError, OSError."""
     try:
-        sources = sources_of_panel(plan[name].script, plan[name].reads)
+        return sources_of_panel(panel.script, panel.reads)
     except FileNotFoundError as error:
         raise ConfigurationError(
-            f"panel {name} of paper.yaml has no script: write {error.filename}"
+            f"panel {panel.name} of paper.yaml has no script: write {error.filename}"
         ) from error
-    present = panel_identity(name, data_of(plan, name, quality), sources)
-    return RENDERING.format(quality=quality, panel=name, identity=present)
 
 
-def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> list[str]:
-    """Paths of the results that panels plot, and of their files in the store. Raises OSError."""
-    files = [f"{stem_of(plan, name, quality)}{suffix}" for name in names for suffix in SUFFIXES]
-    return [*runs_of(plan, names, quality), *files]
+def stem_of(name: str, quality: str) -> str:
+    """Path of the files of a panel or of the report, without suffix."""
+    return f"{FIGURES}/{quality}/{name}"
 
 
-def report_stem(plan: dict[str, Panel], quality: str) -> str:
-    """Path of the report in the store, without suffix. Raises OSError."""
-    release = [] if quality == RELEASE else [NUMBERS]
-    sources = {path: content_hash(path) for path in (*REPORT_SOURCES, *release) if (ROOT / path).exists()}
-    present = identity([stem_of(plan, name, quality) for name in plan], sources)
-    return RENDERING.format(quality=quality, panel="report", identity=present)
+def record_of(plan: dict[str, Panel], name: str, quality: str) -> str:
+    """Path of the record of a panel or of the report, which has its present identity. Raises ConfigurationError, OSError."""
+    return f"{stem_of(name, quality)}.{identity_of(plan, name, quality)}.json"
 
 
-def rendering_command(panel: Panel, stem: str, data: list[str]) -> str:
-    """Shell command that renders a panel to stem.*"""
-    words = [".venv/bin/python", "-m", f"workflow.figures.{panel.script}", "--output", stem]
-    return shlex.join([*words, "--data", *data, *(["--reads", *panel.reads] if panel.reads else [])])
+def files_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
+    """Paths of the files of a panel or of the report, with the record. Raises ConfigurationError, OSError."""
+    kinds = ("html",) if name == REPORT else KINDS
+    return [*(f"{stem_of(name, quality)}.{kind}" for kind in kinds), record_of(plan, name, quality)]
+
+
+def rendering_of(plan: dict[str, Panel], name: str, quality: str) -> Job:
+    """Job that renders a panel. Raises ConfigurationError, OSError."""
+    panel, planned = plan[name], identity_of(plan, name, quality)
+    data = data_of(plan, name, quality)
+    return Job(panel.script, stem_of(name, quality), data, [*panel.reads], planned)
 
 
 def _merged(*efforts: dict[str, Any]) -> dict[str, Any]:

@@ -1,9 +1,10 @@
-"""Writes the report of a quality: a page of HTML with all pictures in it, or the release's page docs/gallery/README.md with pictures
-beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
+"""Writes the report of a quality, figures/QUALITY/report.html with all pictures in it, or the release's page docs/gallery/README.md with
+pictures beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
 """
 
 import argparse
 import base64
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,10 +19,18 @@ from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.files import in_one_line, write_together
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, cpu_seconds
-from workflow.lib.save import reduced
+from workflow.lib.save import commit, reduced, write_product
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import NUMBERS, RELEASE, Selection, runs_of, stem_of
-from workflow.pipeline.publish import read_record
+from workflow.pipeline.plan import (
+    NUMBERS,
+    RELEASE,
+    REPORT,
+    Selection,
+    identity_of,
+    record_of,
+    runs_of,
+    stem_of,
+)
 from workflow.report import typeset
 
 GALLERY = "docs/gallery"
@@ -62,9 +71,8 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
 
 def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
     """A panel with its picture, and what it is made from, for the template. Raises OSError."""
-    stem = data.root / stem_of(data.plan, name, data.quality)
-    record = read_record(f"{stem}.json")
-    picture = base64.b64encode(Path(f"{stem}.svg").read_bytes()).decode()
+    record = json.loads((data.root / record_of(data.plan, name, data.quality)).read_text("utf-8"))
+    picture = base64.b64encode((data.root / f"{stem_of(name, data.quality)}.svg").read_bytes()).decode()
     runs = {} if release else runs_of(data.plan, [name], data.quality)
     return record | {
         "name": name,
@@ -132,20 +140,21 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
     return pd.DataFrame(lines).to_csv(index=False, float_format="%.6g").encode()
 
 
-def write(quality: str, output: Path | None, root: Path = ROOT) -> None:
-    """Writes the report to the output, or the gallery without one. Raises ConfigurationError, FormatError, OSError."""
+def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
+    """Writes the report, or the gallery. Raises ConfigurationError, FormatError, OSError."""
     data = Data(quality, root)
     judgements = judge_all(data)
-    if output:
-        write_together({output: rendered(judgements, data, release=False)})
+    if not gallery:
+        page = rendered(judgements, data, release=False)
+        name = identity_of(data.plan, REPORT, quality)
+        parents = [record_of(data.plan, panel, quality) for panel in data.plan]
+        record = {"quality": quality, "identity": name, "commit": commit(), "parents": parents}
+        write_product(root / stem_of(REPORT, quality), name, {"html": page}, record)
         return
     folder = root / GALLERY
-    pictures = {
-        folder / f"{name}.png": reduced(root / f"{stem_of(data.plan, name, quality)}.png")
-        for name in data.plan
-    }
-    page = {folder / "README.md": rendered(judgements, data, release=True)}
-    write_together(pictures | page | {root / NUMBERS: numbers_file(judgements)})
+    pictures = {folder / f"{name}.png": reduced(root / f"{stem_of(name, quality)}.png") for name in data.plan}
+    text = {folder / "README.md": rendered(judgements, data, release=True)}
+    write_together(pictures | text | {root / NUMBERS: numbers_file(judgements)})
     for former in {*folder.glob("*.png")} - pictures.keys():
         former.unlink()
 
@@ -153,10 +162,10 @@ def write(quality: str, output: Path | None, root: Path = ROOT) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--output", type=Path, help="file of the report; without it the gallery is written")
+    parser.add_argument("--gallery", action="store_true", help="write the gallery instead of the report")
     options = parser.parse_args()
     try:
-        write(options.quality, options.output)
+        write(options.quality, gallery=options.gallery)
     except (ConfigurationError, FormatError) as error:
         sys.exit(f"make report: {error}")
     except OSError as error:

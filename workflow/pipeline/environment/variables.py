@@ -1,10 +1,14 @@
-"""Environment of Snakemake and its jobs: variables of the caller's shell change no result, however Snakemake is started; its signals."""
+"""Environment of all commands: variables of the caller's shell change no result, however Snakemake is started; its signals."""
 
 import os
 import signal
 from pathlib import Path
 
-ALLOWED = Path(__file__).with_name("allowed_variables").read_text().split()
+ALLOWED = {
+    *("PATH", "HOME", "USER", "LOGNAME", "TERM", "COLUMNS", "TMPDIR", "CXX", "MAKEFLAGS", "SLURM_CONF"),
+    *("http_proxy", "https_proxy", "no_proxy", "all_proxy"),
+    *("HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY", "ALL_PROXY", "SSL_CERT_FILE", "SSL_CERT_DIR"),
+}
 FIXED = {
     "LC_ALL": "C.UTF-8",
     "TZ": "UTC",
@@ -20,7 +24,7 @@ FIXED = {
 
 
 def clean() -> None:
-    """Removes all variables that are not listed in `allowed_variables`; those of Slurm remain."""
+    """Removes all variables that are not ALLOWED; those of Slurm remain."""
     kept = {name: text for name, text in os.environ.items() if name in ALLOWED or name.startswith("SLURM_")}
     os.environ.clear()
     # Snakemake needs a name, and the user of a container may have none.

@@ -7,21 +7,33 @@ Exit status: 0, 1 if something is stale, edited or missing, 3 if something could
 """
 
 import argparse
+import json
 import os
 import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from workflow.lib.files import in_one_line
-from workflow.lib.identity import named_identity, sha256, siblings, sources_of_panel, stated
+from workflow.lib.identity import sha256, siblings, sources_of_panel
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import Panel, Run, data_of, rendering_command, report_stem, runs_of, stem_of
-from workflow.pipeline.publish import FIGURES, RENDERED, copies, read_record
+from workflow.pipeline.plan import (
+    REPORT,
+    Panel,
+    Run,
+    data_of,
+    files_of,
+    record_of,
+    rendering_of,
+    runs_of,
+    stem_of,
+)
 from workflow.pipeline.sources import source_hash
 
 
@@ -42,6 +54,13 @@ def hash_if_readable(path: str) -> str:
         return sha256(Path(path).read_bytes())
     except OSError:
         return ""
+
+
+def read_record(path: Path) -> dict[str, Any]:
+    """Record of a panel or report; empty if it is missing or damaged."""
+    with suppress(OSError, ValueError):
+        return dict(json.loads(path.read_text("utf-8")))
+    return {}
 
 
 @cache
@@ -84,98 +103,87 @@ def changes(run: Run, sibling: Path) -> list[str]:
     return differing
 
 
-class FigureFiles:
-    """Figure of a panel: in the store, under its present identity, and the copy that is shown."""
+class Product:
+    """Files of a panel or of the report, and their record."""
 
     def __init__(self, plan: dict[str, Panel], name: str, quality: str) -> None:
-        self.panel, self.shown = plan[name], f"{FIGURES}/{quality}/{name}"
-        self.data, self.stem = data_of(plan, name, quality), stem_of(plan, name, quality)
-        self.record = read_record(f"{self.stem}.json")
-        self.statement = (name, quality, named_identity(self.stem))
+        self.plan, self.name, self.quality = plan, name, quality
+        self.path = Path(record_of(plan, name, quality))  # of the record
+        self.record = read_record(self.path)
+
+    @property
+    def shown(self) -> str:
+        """Path of its first file, which stands for all."""
+        return files_of(self.plan, self.name, self.quality)[0]
 
     def is_made(self) -> bool:
         """Whether there is a file of it, also of a former one."""
-        return Path(f"{self.shown}.pdf").exists() or bool(siblings(f"{self.stem}.json"))
+        return Path(self.shown).exists() or bool(siblings(self.path))
 
     def fault(self, render: bool) -> Fault | None:
         """render: also render in build/audit, where files stay that differ."""
         if not self.record:
             return self._fault_without_record()
         for kind, digest in self.record["files"].items():
-            for path in (f"{self.stem}.{kind}", f"{self.shown}.{kind}"):
-                if not Path(path).exists():
-                    return Fault("missing", path, "it is not there")
-                content = Path(path).read_bytes()
-                if sha256(content) != digest:
-                    if (states := stated(content)) not in (None, self.statement):
-                        reason = f"its identity is {states[2]}, that of other sources or results"
-                        return Fault("stale", path, f"{reason}; make report writes the present one")
-                    remedy = "remove it" if path.startswith(RENDERED) else "make report writes it again"
-                    return Fault("edited", path, f"it differs from its hash in {self.stem}.json; {remedy}")
+            path = f"{stem_of(self.name, self.quality)}.{kind}"
+            if not Path(path).exists():
+                return Fault("missing", path, "it is not there")
+            if hash_if_readable(path) != digest:
+                return Fault("edited", path, f"it differs from its hash in {self.path}; remove it")
         return self._fault_of_rendering() if render else None
 
     def changes(self, former: Mapping[str, str]) -> str:
         """What differs from the parents of a former figure."""
-        sources = sources_of_panel(self.panel.script, self.panel.reads)
+        panel = self.plan[self.name]
+        sources = sources_of_panel(panel.script, panel.reads)
         results = {path for path in former if path.endswith(".h5") and path not in sources}
         paths = dict.fromkeys([*sources, *(path for path in former if path not in results)])
         changed = [path for path in paths if sources.get(path) != former.get(path)]
-        return f"changed: {', '.join(changed + ['results'] * (results != {*self.data}))}"
+        present = {*data_of(self.plan, self.name, self.quality)}
+        return f"changed: {', '.join(changed + ['results'] * (results != present))}"
 
     def _fault_without_record(self) -> Fault:
-        record = f"{self.stem}.json"
-        if Path(record).exists():
-            return Fault("edited", record, "it is damaged; remove it")
-        former = next((known["parents"] for path in siblings(record) if (known := read_record(path))), None)
+        if self.path.exists():
+            return Fault("edited", str(self.path), "it is damaged; remove it")
+        former = next((known for path in siblings(self.path) if (known := read_record(path))), None)
+        if self.name == REPORT:
+            return Fault("stale", self.shown, "other results, figures or sources")
         if former is None:
-            return Fault("missing", record, "it is not there")
-        return Fault("stale", f"{self.shown}.pdf", self.changes(former))
+            return Fault("missing", str(self.path), "it is not there")
+        return Fault("stale", self.shown, self.changes(former["parents"]))
 
     def _fault_of_rendering(self) -> Fault | None:
-        name, quality, _ = self.statement
-        rendered = Path("build/audit", quality, name)
-        command = rendering_command(self.panel, str(rendered), self.data)
-        done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+        again = Path("build/audit", self.quality, self.name)
+        job = replace(rendering_of(self.plan, self.name, self.quality), stem=str(again))
+        command = [".venv/bin/python", "-m", "workflow.lib.render", job.json]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
-            return Fault("not checked", f"{self.shown}.pdf", f"rendering fails: {done.stderr.strip()[-200:]}")
-        for copy, again in copies(rendered).items():
-            if copy.read_bytes() != again.read_bytes():
+            return Fault("not checked", self.shown, f"rendering fails: {done.stderr.strip()[-200:]}")
+        for kind, digest in self.record["files"].items():
+            path, rendered = f"{stem_of(self.name, self.quality)}.{kind}", again.with_suffix(f".{kind}")
+            if hash_if_readable(str(rendered)) != digest:
                 from workflow.lib.save import renderer  # noqa: PLC0415  0.5 s, for matplotlib
 
                 if (former := self.record["renderer"]) != (here := renderer()):
-                    return Fault("not checked", str(copy), f"rendered with {former}, this is {here}")
-                return Fault("edited", str(copy), f"rendering it again gives other bytes: compare {again}")
-            again.unlink()
+                    return Fault("not checked", path, f"rendered with {former}, this is {here}")
+                return Fault("edited", path, f"rendering it again gives other bytes: compare {rendered}")
+            rendered.unlink()
         return None
 
 
 def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) -> list[Fault]:
     """Faults of the figures of panels and of the results that they plot. A figure whose results do not hold is not rendered."""
-    runs, pictures = runs_of(plan, names, quality), [FigureFiles(plan, name, quality) for name in names]
+    runs, products = runs_of(plan, names, quality), [Product(plan, name, quality) for name in names]
     plotted = {
-        path: digest for picture in pictures for path, digest in picture.record.get("parents", {}).items()
+        path: digest for product in products for path, digest in product.record.get("parents", {}).items()
     }
     # A result that has the bytes of when it was plotted was checked then; to check all values takes ten times as long.
     unknown = {path: run for path, run in runs.items() if plotted.get(path) != hash_if_readable(path)}
     results = {path: fault for path, run in unknown.items() if (fault := fault_of_result(path, run))}
     with ThreadPoolExecutor(os.cpu_count()) as threads:
-        usable = [render and not {*results} & {*picture.data} for picture in pictures]
-        figures = threads.map(FigureFiles.fault, pictures, usable)
+        usable = [render and not {*results} & {*data_of(plan, name, quality)} for name in names]
+        figures = threads.map(Product.fault, products, usable)
     return [*results.values(), *filter(None, figures)]
-
-
-def fault_of_report(plan: dict[str, Panel], quality: str) -> Fault | None:
-    """Fault of the published report, if there is one."""
-    page, current = Path(FIGURES, quality, "report.html"), Path(f"{report_stem(plan, quality)}.html")
-    if not page.exists():
-        return None
-    content = page.read_bytes()
-    if current.exists() and content == current.read_bytes():
-        return None
-    if not current.exists() or any(content == former.read_bytes() for former in siblings(current)):
-        reason = "other results, figures or sources; make report makes the present one"
-        return Fault("stale", str(page), reason)
-    return Fault("edited", str(page), f"it differs from {current}; make report writes it again")
 
 
 def main(options: argparse.Namespace) -> int:
@@ -183,9 +191,10 @@ def main(options: argparse.Namespace) -> int:
     names = options.panels or [*plan]
     if options.render:
         lock_products()  # build/audit is one folder
-    made = [name for name in names if FigureFiles(plan, name, quality).is_made()]
+    made = [name for name in names if Product(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)
-    if not options.panels and (fault := fault_of_report(plan, quality)):
+    report = Product(plan, REPORT, quality)
+    if not options.panels and report.is_made() and (fault := report.fault(render=False)):
         faults.append(fault)
     for fault in faults:
         alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)

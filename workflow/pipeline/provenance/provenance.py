@@ -9,12 +9,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.identity import named_identity, result_identity, sha256, stated
+from workflow.lib.identity import FORMER, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import QUALITIES, Selection, load_plan, runs_of
-from workflow.pipeline.provenance.audit import FigureFiles
-from workflow.pipeline.publish import RENDERED, read_record
+from workflow.pipeline.plan import FIGURES, QUALITIES, Selection, load_plan, runs_of, stem_of
+from workflow.pipeline.provenance.audit import Product, read_record
 from workflow.pipeline.sources import source_hash
 
 HDF5 = b"\x89HDF"  # first bytes of a file
@@ -70,16 +69,19 @@ def explain_figure(path: Path) -> int:
         )
         return 1
     panel, quality, identity = statement
-    known = f"{RENDERED}/{quality}/{panel}.{identity}.json"
-    record, plan = read_record(known), load_plan(quality)
-    files = FigureFiles(plan, panel, quality) if panel in plan else None
+    plan, name = load_plan(quality), f"{panel}.{identity}.json"
+    known = next(
+        (path for folder in (FIGURES, FORMER) if (path := Path(folder, quality, name)).exists()), Path(name)
+    )
+    record = read_record(known)
+    product = Product(plan, panel, quality) if panel in plan else None
     fresh = "fresh"
-    if not files:
+    if not product:
         fresh = "stale: there is no such panel in paper.yaml"
-    elif identity != named_identity(files.stem):
-        fresh = f"stale: {files.changes(record['parents']) if record else 'of other sources or results'}"
-    digest, picture = sha256(content), Path(RENDERED, quality, f"{panel}.{identity}.png")
-    edited = bool(record) and digest not in record["files"].values() and digest != _of_reduced(picture)
+    elif product.path.name != name:
+        fresh = f"stale: {product.changes(record['parents']) if record else 'of other sources or results'}"
+    digest, files = sha256(content), record.get("files", {})
+    edited = bool(record) and digest not in (*files.values(), _of_reduced(stem_of(panel, quality), files))
     state = "edited" if edited else "unmodified" if record else "not checked"
     unknown = (
         f": the record of identity {identity} is not here; this command makes that of the present sources"
@@ -98,11 +100,14 @@ def explain_figure(path: Path) -> int:
     return int(edited)
 
 
-def _of_reduced(picture: Path) -> str:
-    """sha256 of the picture in the gallery; empty if the original is not here."""
+def _of_reduced(stem: str, files: dict[str, str]) -> str:
+    """sha256 of the picture in the gallery; empty if the original, of these files, is not here."""
+    picture = Path(f"{stem}.png")
+    if not picture.exists() or sha256(picture.read_bytes()) != files.get("png"):
+        return ""
     from workflow.lib.save import reduced  # noqa: PLC0415  0.5 s, for matplotlib
 
-    return sha256(reduced(picture)) if picture.exists() else ""
+    return sha256(reduced(picture))
 
 
 def main(options: argparse.Namespace) -> int:

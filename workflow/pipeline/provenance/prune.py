@@ -1,7 +1,7 @@
 """Removes the results and figures of a quality that no plan names; DRY=yes lists them.
 
-Only files whose names this project gives are removed: NAME.IDENTITY.* in data and in the store, and figures of former panels. Tracked
-files, the results of the release, stay.
+Only files whose names this project gives are removed: RUN.IDENTITY.* in data, and figures of former panels. Tracked files, the results of
+the release, stay.
 """
 
 import argparse
@@ -10,27 +10,25 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from workflow.lib.identity import IDENTITY, stated
+from workflow.lib.identity import IDENTITY, named_identity, stated
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import Panel, report_stem, runs_of, stem_of
+from workflow.pipeline.plan import FIGURES, REPORT, Panel, runs_of
 from workflow.pipeline.provenance.audit import tracked
-from workflow.pipeline.publish import FIGURES, RENDERED
 
-GIVEN = re.compile(
-    rf"(.+\.{IDENTITY})\.(h5|log|cost\.json|pdf|png|svg|csv|json|html)(\.checkpoint|\.refused)?(\.\w+\.tmp)?"
-)
+GIVEN = re.compile(rf"(.+\.{IDENTITY})\.(h5|log|cost\.json)(\.checkpoint)?(\.\w+\.tmp)?")
 
 
 def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
     """Files of a quality and effort that its plan does not name. Raises OSError."""
+    for file in Path(FIGURES, quality).glob("*.*"):
+        panel = file.name.partition(".")[0]
+        given_here = named_identity(file) or (stated(file.read_bytes()) or ())[:2] == (panel, quality)
+        if panel not in (*plan, REPORT) and given_here:
+            yield file
     planned = {path.removesuffix(".h5") for path in runs_of(plan, plan, quality)}
-    planned |= {report_stem(plan, quality), *(stem_of(plan, name, quality) for name in plan)}
-    for copy in Path(FIGURES, quality).glob("*.*"):
-        if copy.stem not in plan and (stated(copy.read_bytes()) or ())[:2] == (copy.stem, quality):
-            yield copy
-    for path in [*Path("data", quality).glob("*/*"), *Path(RENDERED, quality).glob("*")]:
+    for path in Path("data", quality).glob("*/*"):
         given = GIVEN.fullmatch(str(path))
-        if given and (given[1] not in planned or given[3] == ".refused"):
+        if given and given[1] not in planned:
             yield path
 
 

@@ -1,19 +1,13 @@
-/// Pairs of the plain way and the saving that docs/numerics.md compares: forms of the collision, the engine
-/// against the reference simulator (binary heap, every scatterer visited), a pulse with and without shared
-/// parts of its trajectories, and short runs with and without freezing of late arrivals. Also the kinetic
-/// equation. items_per_second is events per second; gamma:0 means gamma = N.
+/// The engine against the reference simulator (binary heap, every scatterer visited). items_per_second is
+/// events per second; gamma:0 means gamma = N.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
-#include "boltzmann/refinement.hpp"
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
 #include "engine/open_dynamics.hpp"
 #include "engine/open_start.hpp"
-#include "engine/pair.hpp"
 #include "reference/heap_simulator.hpp"
 #include "reference/open_heap_simulator.hpp"
 
@@ -25,33 +19,6 @@ constexpr double forever = 1e9;
 constexpr std::int64_t events_per_iteration = 100'000;
 NoObserver nobody;
 void nothing(double) {}
-
-/// u' = -sigma u + c U, U' = c u + sigma U as printed, with c rounded.
-struct PlainReflection {
-  explicit PlainReflection(double s) : sigma(s), c(std::sqrt((1 - s) * (1 + s))) {}
-  void operator()(double& u, double& U, std::uint32_t /*cell*/) const {
-    const double before = u;
-    u = -sigma * before + c * U;
-    U = c * before + sigma * U;
-  }
-  double sigma, c;
-};
-
-template <class Rule>
-void collision(benchmark::State& state) {
-  const Rule collide(0.3);
-  std::array<double, 64> particles{}, scatterers{};
-  RandomStream random({1, 0}, Purpose::initial_particle_momentum, 0);
-  for (double& u : particles) u = random.gaussian();
-  for (double& w : scatterers) w = random.gaussian();
-  std::uint64_t pair = 1;
-  for ([[maybe_unused]] const auto iteration : state) {
-    pair = pair * 6364136223846793005ULL + 1442695040888963407ULL;  // the MMIX generator of Knuth
-    collide(particles[(pair >> 40) % 64], scatterers[(pair >> 50) % 64], 0);
-  }
-  benchmark::DoNotOptimize(particles);
-  state.SetItemsProcessed(state.iterations());
-}
 
 /// A closed chain, and the time in which an average event of it happens.
 struct Closed {
@@ -117,50 +84,14 @@ void open_reference(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(collisions));
 }
 
-/// A pulse in one of 101 cells: two trajectories that share what is the same, or in full.
-void pulse(benchmark::State& state) {
-  const ClosedChain chain{101, 50, 1, 0.5};
-  const PhasePoint plain = closed_chain_start(chain, {1e4, 1e4}, false, {1, 0});
-  PhasePoint pulsed = plain;
-  for (std::size_t i = 2500; i < 2550; ++i) pulsed.particles[i].velocity *= 3;
-  for ([[maybe_unused]] const auto iteration : state) {
-    PairDynamics pair(chain, plain, pulsed, 0.12, {1, 0}, state.range(0) != 0);
-    pair.run(0.12, nothing);
-  }
-}
-
-/// A short run, construction included. Arrivals after its end are frozen or remain pending.
-void short_run(benchmark::State& state) {
-  const ClosedChain chain{1000, 50, 1, 0.5};
-  const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
-  const double end = static_cast<double>(state.range(0)) * chain.particles() / expected_rate(chain, start);
-  for ([[maybe_unused]] const auto iteration : state) {
-    ClosedDynamics dynamics(chain, start, state.range(1) != 0 ? end : forever, {1, 0});
-    simulate(dynamics, end, nobody, nothing);
-  }
-}
-
-void kinetic_equation(benchmark::State& state) {
-  const KineticProblem problem{.sigma = 0.5, .gamma = static_cast<double>(state.range(0))};
-  for ([[maybe_unused]] const auto iteration : state) benchmark::DoNotOptimize(refine(problem, 1e-10));
-}
-
 void chains(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"cells", "particles_per_cell", "gamma"})->Iterations(20);
   benchmark->Args({11, 20, 0})->Args({10'000, 100, 0})->Args({11, 20, 1})->Args({50, 20, 1});
 }
 
-BENCHMARK_TEMPLATE(collision, PlainReflection);
-BENCHMARK_TEMPLATE(collision, Elastic);
 BENCHMARK(closed_reference)->Apply(chains);
 BENCHMARK(closed_engine)->Apply(chains);
 BENCHMARK(open_reference)->ArgName("gamma")->Arg(0)->Arg(1)->Iterations(20);
 BENCHMARK(open_engine)->ArgName("gamma")->Arg(0)->Arg(1)->Iterations(20);
-BENCHMARK(pulse)->ArgName("shared")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
-BENCHMARK(short_run)
-    ->ArgNames({"events_per_particle", "freeze"})
-    ->ArgsProduct({{1, 100}, {0, 1}})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(kinetic_equation)->ArgName("gamma")->Arg(1)->Arg(50)->Unit(benchmark::kMillisecond);
 
 }  // namespace
