@@ -58,9 +58,9 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     )
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)
-    moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
-    names = ("variance", "centre_of_mass", "mean_displacement", "scatterer_energy")
-    measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))
+    moments, scatterings, persistent, waits = np.split(rows, 2 * len(times) + np.arange(3), axis=1)
+    names = ("variance", "centre_of_mass")
+    measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 2), 2, 0), strict=True))
     return measurements | {"scatterings": scatterings, "persistent": persistent, "waits": waits}
 
 
@@ -88,8 +88,7 @@ def measured(measure: Measure, chain: Chain) -> Measured:
                 np.ravel(x)[::every] for x in (result[key].mean, result[key].standard_error)
             )
 
-    moments = ["variance", "variance_plain", "centre_of_mass", "mean_displacement"]
-    add("displacement", moments, EVERY, decades=DECADES)
+    add("displacement", ["variance", "centre_of_mass"], EVERY, decades=DECADES)
     add("persistence", ["mu"])
     add("waiting_time", ["density"])
     return measurements
@@ -98,11 +97,7 @@ def measured(measure: Measure, chain: Chain) -> Measured:
 def scores(measurements: Measured, chain: Chain) -> dict[str, np.ndarray]:
     """z-scores of all measurements against the reference simulator."""
     sample = reference(chain)
-    expected = {
-        name: average(sample[name.removesuffix("_plain")])
-        for name in measurements
-        if name not in ("mu", "density")
-    }
+    expected = {name: average(sample[name]) for name in measurements if name not in ("mu", "density")}
     often = sample["waits"].sum(axis=0) > 200  # often enough for a normal mean
     expected["mu"] = ratio(sample["persistent"], sample["scatterings"])
     widths = np.diff(waiting_time_edges(chain))

@@ -8,7 +8,7 @@ from workflow.lib.load import Result
 CLOSED = {"cells": 3, "particles_per_cell": 2, "relaxation_time": 0, "gamma": 2, "replicas": 3}
 BATHS = {"cells": 3, "start": "empty", "relaxation_time": 0, "replicas": 3}
 ENERGIES = {"particle_energy": 4.0, "scatterer_energy": 4.0, "mu": 1.0}
-CURRENTS = {"energy_current_plain": 8.0, "particle_current_plain": 2.0, "temperature_first": 4.0}
+CURRENTS = {"energy_current": 8.0, "particle_current": 2.0, "temperature_first": 4.0}
 
 
 def in_units(measure: Measure, name: str, sigma: float, k: int) -> Result:

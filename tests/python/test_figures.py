@@ -11,7 +11,13 @@ import pytest
 from tests.python.conftest import ROOT, command_line
 from workflow.lib.caption import DOUBTS
 from workflow.lib.identity import panel_identity, sha256, sources_of_panel, stated
+from workflow.lib.job import Job
 from workflow.lib.load import NOT_TESTED, load
+
+
+def render(script: str, stem: Path, paths: list[Path]) -> None:
+    job = Job(script, str(stem), [*map(str, paths)])
+    subprocess.run([sys.executable, "-P", "-m", "workflow.lib.render", job.json], cwd=ROOT, check=True)
 
 
 def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: Path) -> None:
@@ -20,11 +26,11 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
         options = {"particles-per-cell": path.stem, "output": path}
         subprocess.run(command_line("persistence", options), check=True)
     stem = tmp_path / "smoke/panel"
-    command = [sys.executable, "-P", "-m", "workflow.lib.render", "fig05"]
-    subprocess.run([*command, "--output", stem, "--data", *paths], cwd=ROOT, check=True)
+    render("fig05", stem, paths)
 
     contents = {kind: stem.with_suffix(f".{kind}").read_bytes() for kind in ("pdf", "png", "svg", "csv")}
-    record = json.loads(stem.with_suffix(".json").read_text())
+    (path,) = stem.parent.glob("panel.*.json")
+    record = json.loads(path.read_text())
     sources = sources_of_panel("fig05")
     identity = panel_identity("panel", map(str, paths), sources)
     assert {stated(content) for content in contents.values()} == {("panel", "smoke", identity)}
@@ -53,9 +59,6 @@ def test_doubts_about_the_results_of_other_panels(tmp_path: Path) -> None:
         options = {"cells": 4, "replicas": 2, "observation-time": 2, "output": path}
         subprocess.run(command_line("steady_profile", options), check=True)
     stem = tmp_path / "smoke/panel"
-    command = [sys.executable, "-P", "-m", "workflow.lib.render", "fig02_upper"]
-    subprocess.run([*command, "--output", stem, "--data", *paths], cwd=ROOT, check=True)
-    assert (
-        DOUBTS[NOT_TESTED] + ": deterministic and rare."
-        in json.loads(stem.with_suffix(".json").read_text())["caption"]
-    )
+    render("fig02_upper", stem, paths)
+    (record,) = stem.parent.glob("panel.*.json")
+    assert DOUBTS[NOT_TESTED] + ": deterministic and rare." in json.loads(record.read_text())["caption"]

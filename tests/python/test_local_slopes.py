@@ -7,7 +7,6 @@ import pytest
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.figures import fig01_inset, fig03_inset, fig06, fig08, fig09, momentum
-from workflow.lib.fit import fit_power
 from workflow.lib.load import Quantity, Result
 from workflow.physics.closed import quasi_stationary
 from workflow.pipeline.plan import Run
@@ -48,25 +47,6 @@ def test_the_deviation_at_p_0_is_extrapolated_from_both_sides() -> None:
     table = pd.DataFrame({"momentum": momentum, "cells": 4, "kind": fig03_inset.MEAN_FIELD})
     table["deviation"] = np.where(momentum < 0, 5 + momentum, -7 + 0.5 * momentum)
     assert fig03_inset.at_centre(table).to_dict() == {4: 7.0}
-
-
-def test_diffusion_is_compared_at_equal_scaled_times() -> None:
-    """D = ε^-0.4 f(εt), in units in which √T/λ is 2. The ring of ε = 0.001 ends too early. Detected mistake: D at equal times."""
-    time = 2.0 ** np.arange(10)
-    parts = []
-    for epsilon in (0, 0.001, 0.01, 0.1, 0.3):
-        scaled = max(epsilon, 1e-9) * 2 * time
-        heat = 2 * time * max(epsilon, 1e-9) ** -0.4 * scaled**0.2
-        parts.append(pd.DataFrame({"epsilon": epsilon, "time": time, "heat_variance": heat}))
-    table = pd.concat(parts).assign(heat_variance_error=lambda rows: 0.02 * rows.heat_variance)
-    found = momentum.diffusion(table, 2)
-    assert [*found.epsilon] == [0.01, 0.1, 0.3]
-    np.testing.assert_allclose(found.diffusion_error / found.diffusion, 0.02)
-    law = fit_power(found.epsilon, found.diffusion, found.diffusion_error)
-    assert law.exponent == pytest.approx(-0.4)
-    assert fit_power(*table[table.time == 64].iloc[1:, [0, 2, 3]].to_numpy().T).exponent != pytest.approx(
-        -0.4
-    )
 
 
 def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:

@@ -1,15 +1,13 @@
-"""Results do not depend on the processor: x86-64 with and without FMA, AVX and SSE 4, and arm64."""
+"""Results do not depend on the processor: x86-64 with and without FMA, AVX and SSE 4."""
 
 import os
 import re
 import subprocess
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.load import load
 from workflow.pipeline.configuration import arguments
 from workflow.pipeline.plan import Run, load_plan
 
@@ -87,33 +85,6 @@ def test_without_fused_multiply_add(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", PAPER)
 def test_without_fused_multiply_add_at_the_sizes_of_the_paper(name: str, tmp_path: Path) -> None:
     assert_same_without_fma(PAPER[name], tmp_path)
-
-
-@pytest.fixture(scope="session")
-def arm64() -> Path:
-    """Folder of a Debian system with the programs for arm64. Needs root, for a chroot."""
-    subprocess.run(["bash", "tests/arm64.sh"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-    return ROOT / "build/arm64"
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", PAPER)
-def test_on_arm64(name: str, arm64: Path, tmp_path: Path) -> None:
-    run = PAPER[name]
-    result_of([str(ROOT / "build/bin" / run.program)], run.options, tmp_path / "here.h5", {})
-    emulated = ["qemu-aarch64", "-L", str(arm64), str(arm64 / "build/bin" / run.program)]
-    result_of(emulated, run.options, tmp_path / "there.h5", {})
-    here, there = load(tmp_path / "here.h5"), load(tmp_path / "there.h5")
-    # GSL has fused multiply-adds there. Events of the kinetic equation are iterations.
-    assert not run.replicated or here.provenance["events"] == there.provenance["events"]
-    tolerance = 1e-12
-    for each, quantity in here.quantities.items():
-        # Densities of the kinetic equation are accurate relative to their maximum, and the spread of its currents is a rounding error.
-        absolute: float | np.ndarray = 0
-        if run.program == "boltzmann":
-            largest = 1 if each == "current_spread" else np.nanmax(np.abs(quantity.mean), initial=0)
-            absolute = tolerance * largest
-        assert np.isclose(there[each].mean, quantity.mean, tolerance, absolute, equal_nan=True).all(), each
 
 
 @pytest.mark.long

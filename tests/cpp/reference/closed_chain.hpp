@@ -15,8 +15,7 @@ namespace reference {
 /// Closed chain by the reference simulator, with independent random numbers and initial states and no code
 /// shared with the engine or the programs. Particles start with uniform positions and Gaussian momenta,
 /// scatterers at rest; cells have length 1. Prints one line per replica: at every time after the relaxation
-/// the mean over the particles of x^2, the square of their mean x, their mean x, and the mean energy of a
-/// scatterer; then, over the observation after the relaxation, the number of scatterings, the number with p'
+/// the mean over the particles of x^2 and the square of their mean x; then, over the observation after the relaxation, the number of scatterings, the number with p'
 /// p > 0, and a histogram, with bins of equal ratio, of the waiting times that begin with these scatterings.
 /// The chain runs until every such waiting time has ended or exceeds the last bin. No time exceeds the
 /// observation.
@@ -41,7 +40,7 @@ struct ClosedChain {
 class ClosedChainWatch {
  public:
   ClosedChainWatch(const ClosedChain& setting, const std::vector<double>& momenta)
-      : setting_(setting), scatterers_(setting.cells, 0), counts_(setting.bins, 0) {
+      : setting_(setting), counts_(setting.bins, 0) {
     for (const double p : momenta) particles_.push_back({p});
   }
 
@@ -50,7 +49,6 @@ class ClosedChainWatch {
     particle.x = particle.x_at(event.time);
     particle.p = event.p_after;
     particle.since = event.time;
-    scatterers_[event.scatterer] = event.P_after;
 
     count_wait(event.time - particle.wait_begin);
     const bool observed =
@@ -65,18 +63,16 @@ class ClosedChainWatch {
     for (Tagged& particle : particles_) particle.x -= particle.x_at(time);
   }
 
-  void print_moments(double time, double scatterer_mass) const {
-    double square = 0, mean = 0, energy = 0;
+  void print_moments(double time) const {
+    double square = 0, mean = 0;
     for (const Tagged& particle : particles_) {
       const double x = particle.x_at(time);
       square += x * x;
       mean += x;
     }
-    for (const double P : scatterers_) energy += P * P / (2 * scatterer_mass);
     const auto count = static_cast<double>(particles_.size());
     mean /= count;
-    std::printf("%.17g %.17g %.17g %.17g ", square / count, mean * mean, mean,
-                energy / static_cast<double>(scatterers_.size()));
+    std::printf("%.17g %.17g ", square / count, mean * mean);
   }
 
   void print_counts() const {
@@ -99,7 +95,6 @@ class ClosedChainWatch {
 
   const ClosedChain& setting_;
   std::vector<Tagged> particles_;
-  std::vector<double> scatterers_;  // momenta P
   std::vector<long> counts_;
   long scatterings_ = 0, persistent_ = 0;
 };
@@ -125,7 +120,7 @@ inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
   watch.begin(relaxation);
   for (const double time : times) {
     run_until(relaxation + time);
-    watch.print_moments(relaxation + time, chain.scatterer_mass());
+    watch.print_moments(relaxation + time);
   }
   run_until(relaxation + observation + last_edge());
   watch.print_counts();
