@@ -1,7 +1,6 @@
 #include "boltzmann/refinement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "boltzmann/solver.hpp"
 
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

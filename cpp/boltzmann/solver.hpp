@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <stdexcept>
 
 #include "boltzmann/collision_operator.hpp"

@@ -1,9 +1,7 @@
 #include "engine/closed_dynamics.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "engine/flights.hpp"

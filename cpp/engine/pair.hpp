@@ -3,7 +3,6 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -12,14 +12,12 @@
 /// NaN, and the reason is printed, where reservoirs do not impose a difference of temperature, or where it is
 /// less than five of its standard errors.
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "model/rules.hpp"
 #include "observables/conductivity/ends_and_openings.hpp"
 #include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
-#include "statistics/standardised.hpp"
 
 namespace {
 
@@ -46,9 +44,9 @@ std::string reason_without_kappa(const OpenChain& chain) {
 
 double rise(TallyMeans mean) { return mean[tallies.temperature][1] - mean[tallies.temperature][0]; }
 
-/// -J_U times the number of cells over the rise of temperature; NaN unless the rise is at least five of its standard errors,
-/// because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0 with one
-/// replica.
+/// -J_U times the number of cells over the rise of temperature; NaN unless the rise is at least five of its
+/// standard errors, because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0
+/// with one replica.
 Group::Array current_per_rise(const Records& records, double cells, bool defined) {
   const Estimate found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
   const double error = records.size() > 1 ? found.standard_error.front() : 0;

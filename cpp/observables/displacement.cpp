@@ -16,8 +16,8 @@
 #include <cmath>
 #include <functional>
 
+#include "observables/displacement/log_times.hpp"
 #include "sampling/closed_run.hpp"
-#include "sampling/log_times.hpp"
 #include "statistics/control_variates.hpp"
 #include "statistics/fit.hpp"
 

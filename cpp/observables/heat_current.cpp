@@ -9,6 +9,8 @@
 /// fluctuate: at fixed totals <Q^2> would be smaller by a part of order t^2/N. Sound must not travel around
 /// the ring within the longest time. Without conserved momentum it decays, but after many collisions, unless
 /// the direction of a particle is drawn in each.
+#include "observables/heat_current/heat_current.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,10 +19,9 @@
 #include <span>
 
 #include "model/rules.hpp"
-#include "observables/heat_current/heat_current.hpp"
+#include "observables/heat_current/equilibrium_parameters.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
-#include "sampling/equilibrium_parameters.hpp"
 #include "statistics/fit.hpp"
 
 namespace {
@@ -29,8 +30,6 @@ using namespace lorentz;
 
 struct Parameters : EquilibriumParameters {
   double fit_from = 16;
-
-  Parameters() : EquilibriumParameters({1, 2, 4, 8, 16, 32, 64}) {}
 };
 
 struct Tallies : ClosedTallies {
@@ -139,11 +138,9 @@ Study heat_current(const Parameters& parameters) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  StudyProgram program("heat_current",
-                       "Heat that passes in a time in a closed chain in equilibrium");
+  StudyProgram program("heat_current", "Heat that passes in a time in a closed chain in equilibrium");
   Parameters parameters;
-  declare(program.options(), parameters,
-          "Times over which the current is integrated, multiples of the first");
+  declare(program.options(), parameters);
   declare_gamma(program.options(), parameters.ring.scattering, positive);
   program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });

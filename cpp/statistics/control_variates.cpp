@@ -29,7 +29,7 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
   const Index rows = x.rows();
 
   // Column i of the gain: g_i [eq. 34].
-  const MatrixXd gain = pseudo_inverse(x_centred).matrix;
+  const MatrixXd gain = pseudo_inverse(x_centred);
   // Leave-one-out coefficients b_(i) = b - gain_i residual_i / (1 - leverage_i) [eq. 34].
   const ArrayXd leverage =
       gain.transpose().cwiseProduct(x_centred).rowwise().sum().array() + 1. / static_cast<double>(rows);

@@ -29,12 +29,12 @@ MatrixXd standardised(const Records& records, const Columns& columns) {
   return x;
 }
 
-PseudoInverse pseudo_inverse(const MatrixXd& x) {
+MatrixXd pseudo_inverse(const MatrixXd& x) {
   // Of the transpose, because Eigen solves for an identity matrix with as many rows as the matrix.
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
   factors.setThreshold(1e-8);
   factors.compute(x.transpose());
-  return {factors.pseudoInverse().transpose(), factors.rank()};
+  return factors.pseudoInverse().transpose();
 }
 
 }  // namespace lorentz

@@ -16,12 +16,8 @@ Eigen::MatrixXd centred(const Eigen::MatrixXd& x);
 /// column that varies by no more than its rounding error becomes 0.
 Eigen::MatrixXd standardised(const Records& records, const Columns& columns);
 
-/// Pseudo-inverse of a matrix of standardised columns, and its rank. Columns that others determine to 1 part
-/// in 10^8 do not count.
-struct PseudoInverse {
-  Eigen::MatrixXd matrix;
-  Eigen::Index rank;
-};
-PseudoInverse pseudo_inverse(const Eigen::MatrixXd& x);
+/// Pseudo-inverse of a matrix of standardised columns. Columns that others determine to 1 part in 10^8 do not
+/// count.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& x);
 
 }  // namespace lorentz

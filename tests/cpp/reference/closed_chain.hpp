@@ -15,10 +15,10 @@ namespace reference {
 /// Closed chain by the reference simulator, with independent random numbers and initial states and no code
 /// shared with the engine or the programs. Particles start with uniform positions and Gaussian momenta,
 /// scatterers at rest; cells have length 1. Prints one line per replica: at every time after the relaxation
-/// the mean over the particles of x^2 and the square of their mean x; then, over the observation after the relaxation, the number of scatterings, the number with p'
-/// p > 0, and a histogram, with bins of equal ratio, of the waiting times that begin with these scatterings.
-/// The chain runs until every such waiting time has ended or exceeds the last bin. No time exceeds the
-/// observation.
+/// the mean over the particles of x^2 and the square of their mean x; then, over the observation after the
+/// relaxation, the number of scatterings, the number with p' p > 0, and a histogram, with bins of equal
+/// ratio, of the waiting times that begin with these scatterings. The chain runs until every such waiting
+/// time has ended or exceeds the last bin. No time exceeds the observation.
 struct ClosedChain {
   Arguments of;
   std::size_t cells = of.count("cells"), particles_per_cell = of.count("particles-per-cell"),

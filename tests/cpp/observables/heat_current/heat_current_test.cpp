@@ -20,7 +20,7 @@ constexpr std::size_t count = 4;
 /// Integrated current by the reference simulator, to which every flight adds its overlap with a block.
 /// overlap: false selects a mutant that counts a flight in the block in which it ends.
 std::vector<double> by_flights(const ClosedParameters& parameters, const Blocks& blocks, const StreamKey& key,
-                bool overlap) {
+                               bool overlap) {
   const ClosedChain chain = parameters.chain();
   const PhasePoint start = stationary_start(chain, parameters.stationary_measure(), key);
   const double sigma = Elastic(chain.sigma).sigma();

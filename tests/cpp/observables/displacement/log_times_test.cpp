@@ -1,4 +1,4 @@
-#include "sampling/log_times.hpp"
+#include "observables/displacement/log_times.hpp"
 
 #include <gtest/gtest.h>
 
