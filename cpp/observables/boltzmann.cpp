@@ -38,7 +38,6 @@ struct Parameters {
   double sigma = 0.5;
   std::optional<double> gamma = 1;       // none: N, one scattering at each of the cells
   std::optional<std::uint32_t> cells{};  // none: continuum
-  RuleParameters rule{};
   Reservoir left = default_left, right = default_right;
   std::vector<double> positions{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
   MomentumBinParameters bins;
@@ -84,7 +83,6 @@ void declare(Options& options, Parameters& parameters) {
                        "Mean number of scatterings on the way through; N: one at each of --cells");
   options.integer_or_word("--cells", parameters.cells, {1, 100}, "continuum",
                           "Number of scatterers of a mean-field chain");
-  declare(options, parameters.rule);
   declare(options, parameters.left, parameters.right);
   options.ascending_list("--positions", parameters.positions, {0, 1}, "1",
                          "Positions of the continuum's output, over the length of the chain");
@@ -98,11 +96,6 @@ void declare(Options& options, Parameters& parameters) {
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const Parameters& parameters, bool positions_given) {
   validate(parameters.bins);
-  validate(parameters.rule);
-  if (!parameters.rule.properties().kinetic_equation)
-    throw UsageError(fmt::format(
-        "--rule {}: its kinetic equation is not solved here. Choose --rule {}, or simulate the chain.",
-        parameters.rule.name, Elastic::properties.name));
   if (!parameters.cells && !parameters.gamma)
     throw UsageError(
         "--gamma N is given without --cells: the continuum has no number of cells. Give --cells, or gamma as "

@@ -10,13 +10,10 @@ from tests.workflow.conftest import ROOT, Project
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        ("figure", "figure is not a target; did you mean figures?"),
         ("panel PANLE=fig05", "PANLE is not an option; did you mean PANEL?"),
-        ("panel", "PANEL is missing; try make panel PANEL=fig05"),
         ("panel PANEL=fig5", "fig5 is not a panel; did you mean fig05?"),
         ("figures PANEL=fig03", "PANEL has no effect on figures"),
         ("figures JOBS=0", "JOBS=0 is invalid; give a whole number, at least 1"),
-        ("figures QUALITY=fast", "fast is not a quality; choose one of smoke, standard, paper"),
         ("figures PROFILE=slurm", "sbatch is not in PATH"),
     ],
 )  # fmt: skip

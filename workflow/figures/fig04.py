@@ -39,7 +39,7 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the chain of `like`; None if there is none."""
     for result in results:
         same = setting.gamma(result) == setting.gamma(like) and result.ends("nu") == like.ends("nu")
-        same &= result.parameters["rule"] == like.parameters["rule"]
+        same &= like.parameters["rule"] == "elastic"
         if same and result.provenance["program"] == "boltzmann":
             return result
     return None

@@ -62,7 +62,7 @@ class TheoryError(ValueError):
 def require_elastic(results: Sequence[Result], theory: str) -> None:
     """Raises TheoryError if a result has another collision rule than the paper's."""
     for result in results:
-        if result.parameters["rule"] != "elastic":
+        if result.parameters.get("rule", "elastic") != "elastic":
             raise TheoryError(
                 f"{theory} holds for elastic collisions only, and {result.path} has the rule {result.parameters['rule']}: leave it "
                 "out of the panel"

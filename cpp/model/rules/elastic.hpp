@@ -42,8 +42,7 @@ class Elastic {
                                              .description = "energy and momentum are conserved",
                                              .conserves_energy = true,
                                              .conserves_momentum = true,
-                                             .invariant = InvariantMeasure::maxwellian,
-                                             .kinetic_equation = true};
+                                             .invariant = InvariantMeasure::maxwellian};
 
   /// Throws std::invalid_argument unless -1 <= sigma <= 1.
   explicit Elastic(double sigma) {

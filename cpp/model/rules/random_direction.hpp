@@ -15,8 +15,7 @@ class RandomDirection : public Elastic {
       .description = "elastic, then the direction of the particle is drawn",
       .conserves_energy = true,
       .conserves_momentum = false,
-      .invariant = InvariantMeasure::maxwellian,
-      .kinetic_equation = false};
+      .invariant = InvariantMeasure::maxwellian};
 
   using Elastic::Elastic;
 

@@ -19,7 +19,6 @@ class Reversal : public Elastic {
       .conserves_energy = true,
       .conserves_momentum = false,
       .invariant = InvariantMeasure::maxwellian,
-      .kinetic_equation = false,
       .options = options,
       .is_elastic = [](std::span<const double> values) { return values[0] == 0; }};
 
