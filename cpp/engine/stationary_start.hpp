@@ -6,7 +6,7 @@
 
 namespace lorentz {
 
-/// Parameters of the stationary measure of a closed chain [eq. M1] at rest on average.
+/// Parameters of the stationary measure of a closed chain [eq. 54] at rest on average.
 struct StationaryMeasure {
   double fugacity = 1;     // z of the flux z exp(-p^2/2T); 1/length
   double temperature = 1;  // T
@@ -25,7 +25,7 @@ struct StationaryMeasure {
 /// Reference: Lewis and Shedler, Naval Res. Logist. Q. 26, 403 (1979), doi:10.1002/nav.3800260304.
 PhasePoint stationary_start(const ClosedChain& chain, const StationaryMeasure& measure, const StreamKey& key);
 
-/// Mean number of particles in a cell, 2 zeta Lambda [eq. M2]. Validity: that of stationary_start().
+/// Mean number of particles in a cell, 2 zeta Lambda [eq. 54]. Validity: that of stationary_start().
 double mean_number(const ClosedChain& chain, const StationaryMeasure& measure);
 
 }  // namespace lorentz

@@ -1,7 +1,7 @@
 /// Integrated heat current of a closed chain in the stationary state: Q, the integral over a time t of J_q =
 /// sum of u (u^2/2 - T), as a mean square per cell over all origins of time in a record and over replicas.
 ///
-/// Where collisions conserve momentum, mode coupling predicts [eq. M28]
+/// Where collisions conserve momentum, mode coupling predicts [eq. 59]
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///

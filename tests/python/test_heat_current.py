@@ -8,7 +8,7 @@ import pytest
 
 from tests.python.conftest import ROOT, Measure, Program
 from workflow.lib.load import Quantity, Result
-from workflow.physics.mode_coupling import Chain
+from workflow.physics.sound import Chain
 from workflow.physics.rings import tabulate
 
 T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
@@ -95,7 +95,7 @@ def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:
 
 
 def test_sound_must_not_come_around(program: Program) -> None:
-    """The ring must be longer than twice the distance of a peak plus twice its root-mean-square width [eq. M18]."""
+    """The ring must be longer than twice the distance of a peak plus twice its root-mean-square width [eq. 57]."""
     chain, time = Chain(zeta=1.6, mass=3), 20.0
     reach = chain.sound_speed * time + np.sqrt(0.510523) * (chain.self_coupling * time) ** (2 / 3)
     ring = {"fugacity": 1.6, "sigma": 0.5, "temperature": 1, "times": "10,20", "fit_from": 10,

@@ -19,7 +19,7 @@ from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
-from workflow.physics.mode_coupling import Chain
+from workflow.physics.sound import Chain
 from workflow.physics.pulse import in_order, label, look, look_of, start
 
 UNITS = {"distance": "1"}
@@ -29,7 +29,7 @@ SURE = 3  # standard errors above which a change of speed is significant
 
 
 def sound_speed(rest: Result) -> float:
-    """Speed of sound [eq. M11] in cells per time, at gamma = N, in the ring from rest without the pulse: at the temperature and with
+    """Speed of sound [eq. 56] in cells per time, at gamma = N, in the ring from rest without the pulse: at the temperature and with
     the slow particles of eqs. 13 and 14 at the end of its relaxation."""
     options = rest.parameters
     particles, length = float(options["particles-per-cell"]), float(options["cell-length"])

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from workflow.physics.mode_coupling import logarithm_at
+from workflow.physics.sound import logarithm_at
 
 ITERATIONS = 20  # of the quasi-stationary estimate; each reduces the distance from the fixed point by a factor of at least 8
 

@@ -7,7 +7,7 @@ import pandas as pd
 
 from workflow.lib.load import Result
 from workflow.physics import setting
-from workflow.physics.mode_coupling import Chain
+from workflow.physics.sound import Chain
 
 GAS = ["rule", "passing", "epsilon", "zeta", "mass"]  # columns that identify a gas
 

@@ -77,7 +77,7 @@ inline void validate(const EquilibriumParameters& parameters) {
         most_intervals));
 }
 
-/// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. M11, M12, M17].
+/// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. 56, 57].
 /// Validity: where momentum is conserved.
 struct Sound {
   double speed;          // c, a length over a time
@@ -90,7 +90,7 @@ struct Sound {
     return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
   }
 
-  /// Distance that a peak has covered after a time, plus its root-mean-square width [eq. M18].
+  /// Distance that a peak has covered after a time, plus its root-mean-square width [eq. 57].
   double reach(double time) const {
     const double second_moment = 0.510523;  // of f_KPZ
     return speed * time + std::sqrt(second_moment) * std::pow(self_coupling * time, 2. / 3);

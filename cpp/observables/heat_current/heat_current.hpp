@@ -9,7 +9,7 @@
 namespace lorentz {
 
 /// Observer of the total heat current of a closed chain, J_q = sum of u (u^2/2 - T) over all particles
-/// [eq. M21], which is constant between two collisions: its integrals over blocks of time are exact.
+/// [eq. 58], which is constant between two collisions: its integrals over blocks of time are exact.
 class HeatCurrent {
  public:
   /// The run must be at the beginning of the first block.

@@ -1,4 +1,4 @@
-"""Sound in the chain at γ = N by fluctuating hydrodynamics [mode_coupling.md].
+"""Sound in the chain at γ = N by fluctuating hydrodynamics [model.md, section 7].
 
 Lengths, not cells, unless a name says so: c is a length over a time. Times and momenta have the units of the model, so that a velocity
 is a momentum.
@@ -25,17 +25,17 @@ class Chain:
 
     @property
     def inertia(self) -> float:
-        """ρ [eq. M4]: momentum per length and drift w."""
+        """ρ [eq. 55]: momentum per length and drift w."""
         return 2 * self.fugacity + self.mass / self.cell_length
 
     @property
     def heat_capacity(self) -> float:
-        """a [eq. M9]: energy per length and temperature at a fixed flux of slow particles."""
+        """a [eq. 55]: energy per length and temperature at a fixed flux of slow particles."""
         return self.fugacity + 1 / (2 * self.cell_length)
 
     @property
     def sound_speed(self) -> float:
-        """c [eq. M11], a length over a time."""
+        """c [eq. 56], a length over a time."""
         return 2 * self.fugacity * sqrt(self.temperature / (self.inertia * self.heat_capacity))
 
     @property
@@ -44,13 +44,13 @@ class Chain:
 
     @property
     def self_coupling(self) -> float:
-        """λ_s [eqs. M12, M17]: the peak has the width (λ_s t)^(2/3)."""
+        """λ_s [eq. 57]: the peak has the width (λ_s t)^(2/3)."""
         steepening = self.fugacity / self.heat_capacity + 2 * self.fugacity / self.inertia
         return steepening * sqrt(self.temperature / self.inertia)
 
 
 def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
-    """Λ [eq. M2] of momenta |p| > cut."""
+    """Λ [eq. 54] of momenta |p| > cut."""
     from scipy.special import exp1  # noqa: PLC0415  0.2 s
 
     return float(exp1(cut**2 / (2 * temperature)) / 2)

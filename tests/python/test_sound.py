@@ -9,7 +9,7 @@ import sympy
 from scipy.integrate import quad
 from sympy import Expr, Matrix, Symbol, exp, integrate, oo, simplify
 
-from workflow.physics.mode_coupling import Chain, logarithm_at, slow_logarithm
+from workflow.physics.sound import Chain, logarithm_at, slow_logarithm
 
 CHAINS = [Chain(1.6, 3), Chain(0.8, 1 / 3), Chain(3, 3, 2.5, 0.4), Chain(0.07, 10, 0.3, 2.0)]
 
@@ -29,7 +29,7 @@ def moment(power: int, sign: int) -> Expr:
 
 
 def fields_and_currents() -> tuple[Matrix, Matrix]:
-    """g and e per length [eqs. M3, M5] and their currents [eqs. M7, M8] in T and w, at a fixed flux F(0) of slow particles."""
+    """g and e per length and their currents [eq. 55] in T and w, at a fixed flux F(0) of slow particles."""
     z = flux * second_order(exp(w**2 / (2 * T)))
     fields = z * moment(0, -1) + M * w / length, z * moment(1, 1) / 2 + (T + M * w**2) / (2 * length)
     currents = z * moment(1, 1), z * moment(2, -1) / 2
