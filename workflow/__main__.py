@@ -33,6 +33,7 @@ from workflow.pipeline.plan import (
     runs_of,
 )
 from workflow.pipeline.program import build
+from workflow.pipeline.records import SHORT, doubtful, panel_of
 
 SELECTION = ("QUALITY", *map(str.upper, OVERRIDES))
 EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
@@ -177,6 +178,9 @@ def make(target: str, options: argparse.Namespace) -> int:
         status = subprocess.run(command, check=False).returncode
     if status == 0:
         print(DONE[target].format_map(vars(options)))
+        found = [path for path in doubtful(plan, names, quality) if panel_of(path) not in SHORT]
+        if found:
+            print(f"{len(found)} run{'s have' if found[1:] else ' has'} doubts: make status {options.effort}")
         if target in ("figures", "panel") and (options.seed or options.replicas):
             from workflow.pipeline.provenance import compare  # noqa: PLC0415  0.5 s
 

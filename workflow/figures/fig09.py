@@ -19,8 +19,8 @@ from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
-from workflow.physics.sound import Chain
 from workflow.physics.pulse import in_order, label, look, look_of, start
+from workflow.physics.sound import Chain
 
 UNITS = {"distance": "1"}
 

@@ -63,7 +63,8 @@ def render(job: Job) -> None:
     own = [result for result in shown if result.path.parent.name == job.panel] or shown
     whole = with_doubts(with_rules(" ".join(caption.split()), own), shown)
     text = Text(script.title(shown) if hasattr(script, "title") else script.TITLE, whole)
-    save(figure, numbers, Path(job.stem), text, Parents(identity, data, sources))
+    doubts = {str(result.path): result.doubts for result in results if result.doubts}
+    save(figure, numbers, Path(job.stem), text, Parents(identity, data, sources, doubts))
 
 
 def load_all(paths: Sequence[Path]) -> list[Result]:

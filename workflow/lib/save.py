@@ -39,6 +39,7 @@ class Parents:
     identity: str  # of the panel
     results: Sequence[Path]
     sources: Mapping[str, str]  # hashes by path
+    doubts: Mapping[str, list[str]]  # reasons to doubt a result, by path
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
@@ -71,7 +72,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     ).encode()
     hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "renderer": renderer(), "parents": hashes}
+    record |= {"commit": commit(), "renderer": renderer(), "doubts": dict(parents.doubts), "parents": hashes}
     write_product(stem, parents.identity, contents, record)
 
 

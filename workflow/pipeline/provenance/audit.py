@@ -7,17 +7,15 @@ Exit status: 0, 1 if something is stale, edited or missing, 3 if something could
 """
 
 import argparse
-import json
 import os
 import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from workflow.lib.files import in_one_line
 from workflow.lib.identity import sha256, siblings, sources_of_panel
@@ -34,6 +32,7 @@ from workflow.pipeline.plan import (
     runs_of,
     stem_of,
 )
+from workflow.pipeline.records import SHORT, doubtful, panel_of, read_record, run_of
 from workflow.pipeline.sources import source_hash
 
 
@@ -54,13 +53,6 @@ def hash_if_readable(path: str) -> str:
         return sha256(Path(path).read_bytes())
     except OSError:
         return ""
-
-
-def read_record(path: Path) -> dict[str, Any]:
-    """Record of a panel or report; empty if it is missing or damaged."""
-    with suppress(OSError, ValueError):
-        return dict(json.loads(path.read_text("utf-8")))
-    return {}
 
 
 @cache
@@ -186,6 +178,16 @@ def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) 
     return [*results.values(), *filter(None, figures)]
 
 
+def print_doubts(doubts: Mapping[str, list[str]]) -> None:
+    """Names doubtful runs with the reasons, a line for each panel and reason."""
+    alike = defaultdict(list)
+    for path, reasons in doubts.items():
+        alike[panel_of(path), "; ".join(reasons)].append(run_of(path))
+    for (panel, reason), runs in sorted(alike.items(), key=lambda item: item[0][0] in SHORT):
+        short = " (too short on purpose)" * (panel in SHORT)
+        print(f"doubtful: {panel}{short}: {reason}: {', '.join(runs)}")
+
+
 def main(options: argparse.Namespace) -> int:
     quality, plan = options.quality, options.plan
     names = options.panels or [*plan]
@@ -200,6 +202,7 @@ def main(options: argparse.Namespace) -> int:
         alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)
     for (state, reason, _), (first, *more) in alike.items():
         print(f"{state}: {first}{f' and {len(more)} more' if more else ''}: {reason}")
+    print_doubts(doubtful(plan, made, quality))
     if rest := [name for name in names if name not in made]:
         print(f"Not made at quality {quality}: {', '.join(rest)}")
     states = Counter(fault.state for fault in faults)

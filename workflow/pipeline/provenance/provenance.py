@@ -13,7 +13,8 @@ from workflow.lib.identity import FORMER, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import FIGURES, QUALITIES, Selection, load_plan, runs_of, stem_of
-from workflow.pipeline.provenance.audit import Product, read_record
+from workflow.pipeline.provenance.audit import Product
+from workflow.pipeline.records import read_record
 from workflow.pipeline.sources import source_hash
 
 HDF5 = b"\x89HDF"  # first bytes of a file
