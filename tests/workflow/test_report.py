@@ -4,6 +4,7 @@ import base64
 import csv
 import re
 import shutil
+import subprocess
 from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
@@ -67,6 +68,31 @@ def test_the_report_is_complete_and_loads_nothing(smoke: Path) -> None:
             link.removeprefix("#") in ids if link.startswith("#") else link.startswith("https://doi.org/")
         )
         assert inside or (ROOT / "figures/smoke" / link).is_file(), link
+
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+FRAME = """<iframe src="report.html" width="390" height="844"></iframe>
+<script>addEventListener("message", event => document.body.textContent = event.data)</script>"""
+PROBE = """<script>addEventListener("load", () => parent.postMessage(
+  document.documentElement.scrollWidth - document.documentElement.clientWidth + " " + [...document.images].every(one => one.complete && one.naturalWidth > 0), "*"))</script>"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
+def test_the_report_on_a_narrow_screen(smoke: Path, tmp_path: Path) -> None:
+    """In a frame of 390 pixels, with a script that reads what is beyond its width. Detected mistake: a picture or a table is wider than the screen."""
+    page = (smoke / "figures/smoke/report.html").read_text()
+    allowed = re.sub(r"<meta http-equiv=.Content-Security-Policy.*?>", "", page)
+    found = []
+    for text in (allowed, allowed.replace("<body>", '<body><div style="width: 500px">wide</div>')):
+        (tmp_path / "report.html").write_text(text + PROBE)
+        (tmp_path / "frame.html").write_text(FRAME)
+        command = [CHROMIUM, "--headless", "--no-sandbox", "--virtual-time-budget=60000", "--dump-dom"]
+        found.append(
+            subprocess.check_output([*command, tmp_path / "frame.html"], text=True, stderr=subprocess.DEVNULL)
+        )
+    assert ">0 true<" in found[0]
+    assert ">0 true<" not in found[1]
 
 
 def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:

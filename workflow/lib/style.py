@@ -34,7 +34,6 @@ ORANGE = "#E69F00"
 GREEN = "#009E73"
 VERMILLION = "#D55E00"
 SKY = "#56B4E9"
-PURPLE = "#CC79A7"
 
 # Colours and dashes for an ordered set of curves, with increasing lightness and increasing gaps.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
