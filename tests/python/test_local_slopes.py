@@ -6,18 +6,10 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
-from workflow.figures import fig01_inset, fig03_inset, fig06, fig08, fig09, momentum
+from workflow.figures import fig01_inset, fig06, fig09, momentum
 from workflow.lib.load import Quantity, Result
 from workflow.physics.closed import quasi_stationary
 from workflow.pipeline.plan import Run
-
-
-def test_local_exponents_of_a_power_law() -> None:
-    size = np.array([16.0, 32, 64, 128])
-    middle, slope, error = fig08.local_exponents(size, 7 * size**0.3, 0.07 * size**0.3)
-    np.testing.assert_allclose(middle, np.sqrt(2) * size[:3])
-    np.testing.assert_allclose(slope, 0.3)
-    np.testing.assert_allclose(error, 0.01 * np.sqrt(2) / np.log(2))
 
 
 def test_slopes_of_a_logarithm_are_its_factor() -> None:
@@ -40,13 +32,6 @@ def test_the_estimate_conserves_energy(particles: int) -> None:
     np.testing.assert_allclose(temperature[-1], particles * 500, rtol=particles / 80)  # the energy saturates
     expected = np.log(time[1] * np.sqrt(2 * temperature[1])) - np.euler_gamma / 2 + 1  # eq. 13 at late times
     np.testing.assert_allclose(slow[1], expected, rtol=1e-6)
-
-
-def test_the_deviation_at_p_0_is_extrapolated_from_both_sides() -> None:
-    momentum = np.array([-3.0, -1, 1, 3])
-    table = pd.DataFrame({"momentum": momentum, "cells": 4, "kind": fig03_inset.MEAN_FIELD})
-    table["deviation"] = np.where(momentum < 0, 5 + momentum, -7 + 0.5 * momentum)
-    assert fig03_inset.at_centre(table).to_dict() == {4: 7.0}
 
 
 def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:

@@ -20,10 +20,8 @@ def tabulate(result: Result) -> pd.DataFrame:
     density = result["density"]
     table = pd.DataFrame({"x": (density.axes["cell"] + 0.5) / len(density.mean)})
     table["density"], table["density_error"] = density.mean, density.error
-    bulk = table[(table.x > 0.25) & (table.x < 0.75)]
-    table["bulk"] = np.polyval(
-        np.polyfit(bulk.x, bulk.density, 1), table.x
-    )  # without weights, as in density_excess
+    bulk = table.iloc[len(table) // 4 : len(table) - len(table) // 4]  # as in density_excess, without weights
+    table["bulk"] = np.polyval(np.polyfit(bulk.x, bulk.density, 1), table.x)
     table["relative"] = table.density / table.bulk
     table["relative_error"] = table.density_error / table.bulk
     table.insert(0, "gamma", setting.gamma(result))
