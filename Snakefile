@@ -12,7 +12,7 @@ import sys
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
-from workflow.lib.files import in_one_line
+from workflow.lib.files import format_os_error
 from workflow.pipeline.lock import lock_products
 from workflow.lib.identity import IDENTITY
 from workflow.pipeline.plan import (
@@ -49,7 +49,7 @@ try:
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
 except OSError as error:  # a panel without a script, or another command
-    sys.exit(in_one_line(error))
+    sys.exit(format_os_error(error))
 
 
 wildcard_constraints:

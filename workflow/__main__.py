@@ -14,7 +14,7 @@ import subprocess
 import sys
 from collections.abc import Iterable
 
-from workflow.lib.files import in_one_line
+from workflow.lib.files import format_os_error
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError, panel_names
@@ -102,7 +102,7 @@ def prepare(target: str, options: argparse.Namespace) -> None:
     target needs them. Raises UsageError, ConfigurationError, BuildError, OSError."""
     efforts = [f"{name}={value}" for name in OVERRIDES if (value := getattr(options, name))]
     options.quality = "_".join([options.quality, *efforts])
-    options.effort = Selection.of(options.quality).arguments
+    options.effort = Selection.parse(options.quality).arguments
     require_profile(options.profile)
     options.panels = options.panel.split()
     known = panel_names() if options.panels else []
@@ -216,7 +216,7 @@ def main() -> int:
     except subprocess.CalledProcessError:  # which has printed why
         return 1
     except OSError as error:
-        print(in_one_line(error), file=sys.stderr)
+        print(format_os_error(error), file=sys.stderr)
         return 1
 
 

@@ -105,9 +105,9 @@ def drawn(known: Known, random: np.random.Generator) -> Known:
         quantities = dict(result.quantities)
         for name, exact in result.quantities.items():
             if exact.count is not None and name != "stationary":
-                shape, freedom = exact.mean.shape, result.replicas - 1
+                shape, dof = exact.mean.shape, result.replicas - 1
                 mean = exact.mean + exact.error * random.standard_normal(shape)
-                error = exact.error * np.sqrt(random.chisquare(freedom, shape) / freedom)
+                error = exact.error * np.sqrt(random.chisquare(dof, shape) / dof)
                 quantities[name] = replace(exact, mean=mean, standard_error=error)
         return replace(result, quantities=quantities)
 

@@ -49,10 +49,10 @@ def test_exact_results_give_the_known_numbers(name: str) -> None:
     np.testing.assert_allclose(found, answers(CASES[name]), rtol=1e-5, atol=1e-8)
 
 
-def outside(z: np.ndarray, freedom: np.ndarray, widest: np.ndarray) -> np.ndarray:
-    """Whether the scores [trial, number] contradict Student's t with these degrees of freedom, by their variance or by their mean.
+def outside(z: np.ndarray, dof: np.ndarray, widest: np.ndarray) -> np.ndarray:
+    """Whether the scores [trial, number] contradict Student's t with these degrees of dof, by their variance or by their mean.
     widest: largest factor by which an error may be too large."""
-    trials, total, stretch = len(z), np.sum(z**2, axis=0), freedom / (freedom - 2)
+    trials, total, stretch = len(z), np.sum(z**2, axis=0), dof / (dof - 2)
     low, high = chi2.ppf(LEVEL, trials) / widest**2, chi2.isf(LEVEL, trials) * stretch
     return (
         (total < low) | (total > high) | (abs(z.mean(axis=0)) * trials**0.5 > norm.isf(LEVEL / 2) * stretch)
@@ -70,13 +70,13 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
     ]  # the others are exact: mu at sigma = 1 and -1
     trials = np.array([[(draw[k].value, draw[k].error) for k in uncertain] for draw in draws])
     z = (trials[..., 0] - answers(case)[uncertain, 0]) / trials[..., 1]
-    freedom = np.array([min(draws[0][k].freedom, 1e6) for k in uncertain])
+    dof = np.array([min(draws[0][k].dof, 1e6) for k in uncertain])
     labels = [draws[0][k].label for k in uncertain]
     widest = np.array([next((w for text, w in BOUNDS.items() if text in label), 1) for label in labels])
-    wrong = outside(z, freedom, widest)
+    wrong = outside(z, dof, widest)
     assert not wrong.any(), [labels[k] for k in np.flatnonzero(wrong)]
-    assert outside(z * 2, freedom, np.ones(1)).all()
-    assert outside(z / 2 / widest, freedom, np.ones(1)).all()
+    assert outside(z * 2, dof, np.ones(1)).all()
+    assert outside(z / 2 / widest, dof, np.ones(1)).all()
 
 
 def changed(known: Known, path: str) -> Known:
@@ -107,4 +107,4 @@ def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: 
         for k, number in enumerate(numbers(name, changed(known, path))):
             if abs(number.value - plain[k].value) > 1e-9 * abs(plain[k].value):
                 fewest[k] = min(fewest[k], run.replicas - 1)
-    np.testing.assert_array_equal([shifted.freedom for shifted in plain], fewest)
+    np.testing.assert_array_equal([shifted.dof for shifted in plain], fewest)

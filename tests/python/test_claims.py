@@ -68,13 +68,13 @@ def test_an_exponent_takes_two_stationary_sizes_one_of_which_is_large() -> None:
 def test_errors_of_ratios_and_sums() -> None:
     first, second = Estimate("", 4.0, 0.3, 7, 0.1), Estimate("", 2.0, 0.2, 9, 0.0)
     result = ratio(first, second, "r")
-    assert (result.value, result.freedom) == (2, 7)
+    assert (result.value, result.dof) == (2, 7)
     assert result.error == pytest.approx(2 * (0.075**2 + 0.1**2) ** 0.5)
     assert result.systematic == pytest.approx(0.05)
     vanishing = ratio(Estimate("", 0.0, 0.3, 5, 0.1), Estimate("", -2.0, 0.5, 4, 0.2), "r")
-    assert (vanishing.value, vanishing.error, vanishing.systematic, vanishing.freedom) == (0, 0.15, 0.05, 4)
+    assert (vanishing.value, vanishing.error, vanishing.systematic, vanishing.dof) == (0, 0.15, 0.05, 4)
     total = combination([first, second], [1, -2], "d", 1)
-    assert (total.value, total.freedom, total.systematic) == (-1, 7, 0.1)
+    assert (total.value, total.dof, total.systematic) == (-1, 7, 0.1)
     assert total.error == pytest.approx(0.5)
-    scaled = first.over(-2, 1)
+    scaled = first / -2 - 1
     assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)

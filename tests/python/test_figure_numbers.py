@@ -79,7 +79,10 @@ def points(axes: Axes) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
 
 
 def lines(axes: Axes) -> list[tuple[np.ndarray, np.ndarray]]:
-    return [tuple(np.asarray(values, dtype=float) for values in line.get_data()) for line in axes.get_lines()]
+    """Abscissa and ordinate of the lines that are no series of points."""
+    of_points = [container[0] for container in axes.containers]
+    free = [line for line in axes.get_lines() if line not in of_points]
+    return [tuple(np.asarray(values, dtype=float) for values in line.get_data()) for line in free]
 
 
 def assert_points(axes: Axes, *expected: tuple[Any, Any, Any]) -> None:
@@ -167,10 +170,9 @@ def test_fig02_upper() -> None:
 
 
 def test_fig02_lower() -> None:
-    """The line goes through the middle half, 4 of 8 cells, as that of the programs does."""
-    cells = np.arange(8)
-    x, line = (cells + 0.5) / 8, 5 + 2 * (cells + 0.5) / 8
-    density = line + np.array([1, 0.5, 0, 0, 0, 0, -0.5, 2])
+    """The line goes through the middle half, 6 of 12 cells, as that of the programs does."""
+    cells = np.arange(12)
+    x, density = (cells + 0.5) / 12, 5 + np.array([3, 1, 0.4, 0.2, 0, 0.1, 0.3, 0, 0.1, 0.5, 1, 2])
     chain = result(
         "rare",
         CHAIN | {"gamma": 1},
@@ -178,6 +180,8 @@ def test_fig02_lower() -> None:
         density_excess=([0.2, 0.3], {"end": [0, 1]}),
     )
     (above, below), table, caption = drawn("fig02_lower", [chain])
+    bulk = slice(3, 9)
+    line = density[bulk].mean() + np.cov(x[bulk], density[bulk])[0, 1] / np.var(x[bulk], ddof=1) * (x - 0.5)
     error = chain["density"].error
     assert_points(above, (x, density, error))
     assert_line(above, x, line)

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.files import in_one_line, write_together
+from workflow.lib.files import format_os_error, write_atomically
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first, second = tmp_path / "one", tmp_path / "other"
-    write_together({first: b"1", second: b"2"})
+    write_atomically({first: b"1", second: b"2"})
     write = Path.write_bytes
 
     def full(path: Path, content: bytes) -> int:
@@ -20,6 +20,6 @@ def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest
 
     monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="No space left") as error:
-        write_together({first: b"3", second: b"4"})
-    assert in_one_line(error.value) == f"{second}.{os.getpid()}.tmp: No space left on device"
+        write_atomically({first: b"3", second: b"4"})
+    assert format_os_error(error.value) == f"{second}.{os.getpid()}.tmp: No space left on device"
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"one": b"1", "other": b"2"}

@@ -43,7 +43,7 @@ def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:
         return float((1 + passing + 10 * epsilon) * o["cells"] ** (0.3 - epsilon - 0.1 * passing))
 
     data = Known({"momentum": truth({"kappa": kappa, "stationary": 1}, 0.01)})
-    table = momentum.tabulate(data.of("momentum", "chain-elastic", "chain-passing", "chain-reversal"))
+    table = momentum.tabulate(data.results("momentum", "chain-elastic", "chain-passing", "chain-reversal"))
     np.testing.assert_allclose(
         table.growth, (table.cells / 16) ** (0.3 - table.epsilon - 0.1 * (table.passing > 0))
     )

@@ -85,7 +85,7 @@ def test_a_pulse_has_no_peak_once_it_has_gone_around_the_ring(measure: Measure) 
 def test_pulse(measure: Measure) -> None:
     ring = {"cells": 31, "particles_per_cell": 50, "relaxation_time": 0, "times": "0.001,0.01,0.02"}
     result = measure("energy_pulse", replicas=32, pairs_per_replica=4, **ring)
-    # The mean energy of 51 degrees of freedom rises from 5000 to 50000 each, and the sum is conserved.
+    # The mean energy of 51 degrees of dof rises from 5000 to 50000 each, and the sum is conserved.
     assert abs(score(result["injected_energy"], 51 * 45000)) < 4
     assert abs(score(result["injected_energy"], 50 * 45000)) > 4
     assert result["sum_error"].mean < 1e-13

@@ -59,12 +59,14 @@ def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     for given in ({"replicas": 32}, {"error": 0.1}):
-        completed = Selection.of("smoke_replicas=5").complete("fig05", "paper", given | {"sigma": 0}, None)
+        completed = Selection.parse("smoke_replicas=5").with_effort(
+            "fig05", "paper", given | {"sigma": 0}, None
+        )
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
-    assert Selection.of("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
-    quality = Selection.of("smoke_seed=7_error=0.005")
+    assert Selection.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
+    quality = Selection.parse("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
-    completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
+    completed = quality.with_effort("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
     assert {key: completed[key] for key in completed if key != "seed"} == {
         "sigma": 0,
         "target-error": 0.005,
@@ -112,5 +114,5 @@ def test_effort_of_quality_panel_and_series(
 )  # fmt: skip
 def test_invalid_efforts(name: str, message: str) -> None:
     with pytest.raises(ConfigurationError) as error:
-        Selection.of(name)
+        Selection.parse(name)
     assert str(error.value).startswith(message)

@@ -45,9 +45,9 @@ def free_profile(time: float) -> np.ndarray:
     """Mean energy difference by distance from the central cell without scattering. Particles start uniformly in
     the cell. Their momenta are uniform on a sphere with the pulse, which fixes the total energy of the cell, and
     Gaussian without."""
-    freedom = PARTICLES + 1
-    speed = np.linspace(-1, 1, 400001)[1:-1] * np.sqrt(2 * PULSE_ENERGY * freedom)
-    with_pulse = (1 - speed**2 / (2 * PULSE_ENERGY * freedom)) ** ((freedom - 3) / 2)
+    dof = PARTICLES + 1
+    speed = np.linspace(-1, 1, 400001)[1:-1] * np.sqrt(2 * PULSE_ENERGY * dof)
+    with_pulse = (1 - speed**2 / (2 * PULSE_ENERGY * dof)) ** ((dof - 3) / 2)
     without = norm.pdf(speed, scale=np.sqrt(2 * ENERGY))
     density = with_pulse / with_pulse.sum() - without / without.sum()
     inside = [np.clip(1 - np.abs(speed * time - d), 0, None) for d in range(CELLS // 2 + 1)]

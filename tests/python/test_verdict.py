@@ -93,11 +93,11 @@ def test_without_numbers_nothing_is_decided() -> None:
 
 
 def test_bands_as_they_are_written() -> None:
-    assert Band.of("-0.5 to 1e-3") == Band(-0.5, 0.001)
-    assert Band.of("above 0") == Band(0, math.inf)
-    assert Band.of("below -2") == Band(-math.inf, -2)
+    assert Band.parse("-0.5 to 1e-3") == Band(-0.5, 0.001)
+    assert Band.parse("above 0") == Band(0, math.inf)
+    assert Band.parse("below -2") == Band(-math.inf, -2)
     with pytest.raises(ValueError, match="is not an acceptance band"):
-        Band.of("over 3")
+        Band.parse("over 3")
 
 
 def test_level_and_bound() -> None:
@@ -111,4 +111,4 @@ def test_level_and_bound() -> None:
 def test_wider_bands() -> None:
     """Detected mistakes: edges are scaled about 0; the open side of a band becomes NaN."""
     assert Band(0.95, 1.05).wider(2) == Band(pytest.approx(0.9), pytest.approx(1.1))
-    assert Band.of("above 0.5").wider(2) == Band(0.5, math.inf)
+    assert Band.parse("above 0.5").wider(2) == Band(0.5, math.inf)

@@ -26,13 +26,13 @@ def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
 
 def persistence_limits(data: Data) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at sigma = -1, 0 and 1."""
-    runs = data.of("fig05", "paper")
+    runs = data.results("fig05", "paper")
     return _from_law([run for run in runs if run.parameters["sigma"] in (-1, 0, 1)])
 
 
 def persistence_in_dense_chain(data: Data) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at every sigma in a chain of many particles per cell."""
-    return _from_law(data.of("fig05", "dense"))
+    return _from_law(data.results("fig05", "dense"))
 
 
 def _from_law(results: list[Result]) -> list[Estimate]:
@@ -40,14 +40,14 @@ def _from_law(results: list[Result]) -> list[Estimate]:
     numbers = _named(results, "mu", "μ - arccos(σ)/π")
     sigmas = [float(result.parameters["sigma"]) for result in results]
     return [
-        (replace(mu, error=0.0) if abs(sigma) == 1 else mu).over(1, float(persistence_law(np.asarray(sigma))))
+        (replace(mu, error=0.0) if abs(sigma) == 1 else mu) - float(persistence_law(np.asarray(sigma)))
         for mu, sigma in zip(numbers, sigmas, strict=True)
     ]
 
 
 def persistent(data: Data) -> list[Estimate]:
     """mu at the sigma of the paper's other figures."""
-    return _named(data.of("fig05", "paper", sigma=0.5), "mu", "μ")
+    return _named(data.results("fig05", "paper", sigma=0.5), "mu", "μ")
 
 
 def waiting_half(data: Data) -> list[Estimate]:
@@ -62,25 +62,25 @@ def waiting_zero(data: Data) -> list[Estimate]:
 
 def _waiting(data: Data, sigma: float) -> Estimate:
     """Exponent of the waiting times. Its spread over cuts of the tail within a factor of three is a systematic error."""
-    result, *_ = data.of("fig06", "all", sigma=sigma)
+    result, *_ = data.results("fig06", "all", sigma=sigma)
     exponent = estimate(result, "exponent", label="exponent of Ψ(τ)")
     return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
 
 
 def spreading_half(data: Data) -> list[Estimate]:
     """alpha at sigma = 1/2. Its change with the relaxation time is a systematic error."""
-    result, *_ = data.of("fig07", "all", sigma=0.5)
+    result, *_ = data.results("fig07", "all", sigma=0.5)
     return [with_systematic(estimate(result, "alpha", label="α, σ = 0.5"), _relaxed(data, 0.5))]
 
 
 def spreading_zero(data: Data) -> list[Estimate]:
     """alpha at sigma = 0. Its change with the relaxation time is a systematic error."""
-    result, *_ = data.of("fig07_inset", "all", sigma=0)
+    result, *_ = data.results("fig07_inset", "all", sigma=0)
     return [with_systematic(estimate(result, "alpha", label="α, σ = 0"), _relaxed(data, 0))]
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    runs = data.of("fig07_inset", "aged", sigma=sigma)
+    runs = data.results("fig07_inset", "aged", sigma=sigma)
     return [float(run["alpha"].mean) for run in runs]
 
 
@@ -95,13 +95,13 @@ def spreading_without_drift(data: Data) -> list[Estimate]:
 
 
 def _spreading(data: Data, *, zero_total_momentum: bool) -> list[Estimate]:
-    runs = data.of("fig07_inset", "zero-momentum" if zero_total_momentum else "all")
+    runs = data.results("fig07_inset", "zero-momentum" if zero_total_momentum else "all")
     name = "α at zero total momentum" if zero_total_momentum else "α"
     return _named([run for run in runs if run.parameters["sigma"]], "alpha", name)
 
 
 def random_directions(data: Data) -> list[Estimate]:
-    return _named(data.of("fig07_inset", "random"), "alpha", "α")
+    return _named(data.results("fig07_inset", "random"), "alpha", "α")
 
 
 def momentum_changes(data: Data) -> list[Estimate]:
@@ -110,11 +110,11 @@ def momentum_changes(data: Data) -> list[Estimate]:
     name = "log₁₀ of the relative change of Σp + ΣP"
     drifts = []
     for series, where in (("all", ""), ("zero-momentum", " = 0")):
-        runs = [run for run in data.of("fig07_inset", series) if run.parameters["sigma"]]
+        runs = [run for run in data.results("fig07_inset", series) if run.parameters["sigma"]]
         drifts += _named(runs, "momentum_drift", name + where)
     changes = []
     for drift in drifts:
         change = max(drift.value, sys.float_info.epsilon)
         error = drift.error / (change * math.log(10))
-        changes.append(Estimate(drift.label, math.log10(change), error, drift.freedom))
+        changes.append(Estimate(drift.label, math.log10(change), error, drift.dof))
     return changes

@@ -24,7 +24,7 @@ class Data:
         self.plan = load_plan(quality)
         self.loaded: dict[str, Result] = {}  # loaded results by path
 
-    def of(self, panel: str, *series: str, **parameters: object) -> list[Result]:
+    def results(self, panel: str, *series: str, **parameters: object) -> list[Result]:
         """The results of series of a panel with these parameters (underscores for dashes). Other series, as those of the user, do not count.
         Raises MissingError if there are none, FormatError, OSError."""
         wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
@@ -63,8 +63,8 @@ class Data:
 Claim = Callable[[Data], list[Estimate]]
 
 
-def freedom(*results: Result) -> float:
-    """Degrees of freedom of a number from several runs: of the run with the fewest replicas."""
+def dof(*results: Result) -> float:
+    """Degrees of dof of a number from several runs: of the run with the fewest replicas."""
     return min(result.replicas for result in results) - 1
 
 
@@ -78,7 +78,7 @@ def estimate(result: Result, name: str, index: Index = (), label: str = "") -> E
     value = float(quantity.mean[index])
     if quantity.discretisation_error is not None:
         return Estimate(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
-    return Estimate(label, value, float(quantity.error[index]), freedom(result))
+    return Estimate(label, value, float(quantity.error[index]), dof(result))
 
 
 def ratio(above: Estimate, below: Estimate, label: str) -> Estimate:
@@ -86,7 +86,7 @@ def ratio(above: Estimate, below: Estimate, label: str) -> Estimate:
     value, size = above.value / below.value, abs(below.value)
     error = float(np.hypot(above.error, value * below.error)) / size
     systematic = (above.systematic + abs(value) * below.systematic) / size
-    return Estimate(label, value, error, min(above.freedom, below.freedom), systematic)
+    return Estimate(label, value, error, min(above.dof, below.dof), systematic)
 
 
 def combination(
@@ -98,7 +98,7 @@ def combination(
         label,
         sum(weight * term.value for weight, term in terms) - minus,
         float(np.sqrt(sum((weight * term.error) ** 2 for weight, term in terms))),
-        min(term.freedom for term in numbers),
+        min(term.dof for term in numbers),
         sum(abs(weight) * term.systematic for weight, term in terms),
     )
 
@@ -107,7 +107,7 @@ def log_slope(first: Estimate, last: Estimate, factor: float) -> Estimate:
     """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
     span = log(factor)
     error = hypot(first.error / first.value, last.error / last.value) / span
-    return Estimate("", log(last.value / first.value) / span, error, first.freedom)
+    return Estimate("", log(last.value / first.value) / span, error, first.dof)
 
 
 def power(
@@ -122,7 +122,7 @@ def power(
     )
     law = fit_power(x, y, error)
     later = fit_power(x[1:], y[1:], error[1:]).exponent if len(x) > 2 else law.exponent
-    exponent = Estimate(mean_slope(label, law), law.exponent, law.error, freedom(*results))
+    exponent = Estimate(mean_slope(label, law), law.exponent, law.error, dof(*results))
     return with_systematic(exponent, [later])
 
 

@@ -14,7 +14,7 @@ def stationary_above_front(data: Data) -> list[Estimate]:
     for k in range(1, len(times)):
         label = f"change of |p| n_t(p) from t = {times[k - 1]:g} to {times[k]:g}"
         before, after = (estimate(result, "plateau", index) for index in (k - 1, k))
-        changes.append(ratio(after, before, label).over(1, 1))
+        changes.append(ratio(after, before, label) - 1)
     return changes
 
 
@@ -22,7 +22,7 @@ def grows_logarithmically(data: Data) -> list[Estimate]:
     """dn/d ln t over the height of |p| n_t(p) above p_0 at the last time, minus 1: if that is stationary while p_0 falls as 1/t, both are equal."""
     result = data.one("fig01", RUN)
     slope, plateau = estimate(result, "log_slope"), estimate(result, "plateau", -1)
-    return [ratio(slope, plateau, "(dn/d ln t)/(|p| n_t(p)) - 1").over(1, 1)]
+    return [ratio(slope, plateau, "(dn/d ln t)/(|p| n_t(p)) - 1") - 1]
 
 
 def front_falls(data: Data) -> list[Estimate]:

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from scipy.special import erf
 
-from workflow.claims.data import Data, by_size, combination, estimate, freedom, power, ratio
+from workflow.claims.data import Data, by_size, combination, dof, estimate, power, ratio
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Quantity, Result
 from workflow.physics.fluxes import SIMULATION, at, deviations
@@ -26,7 +26,7 @@ def equilibrium(data: Data) -> list[Estimate]:
     numbers, baths = [], dict.fromkeys(("temperature_left", "temperature_right"), EQUAL)
     for gamma in (1, "N"):
         flux, profile = (
-            data.of("fig04b", f"equilibrium-{kind}", gamma=gamma, nu_left=RATE, **baths)[0]
+            data.results("fig04b", f"equilibrium-{kind}", gamma=gamma, nu_left=RATE, **baths)[0]
             for kind in ("flux", "profile")
         )
         for end, half, name in OUTGOING:
@@ -34,7 +34,7 @@ def equilibrium(data: Data) -> list[Estimate]:
             kurtosis = estimate(flux, "kurtosis", (end, half), f"⟨p⁴⟩/(3⟨p²⟩²) - 1, {name}, γ = {gamma}")
             label = f"⟨P²⟩/MT - 1 at x = {half}, γ = {gamma}"
             scatterer = estimate(profile, "temperature_scatterer", end, label)
-            numbers += [square.over(EQUAL, 1), kurtosis.over(3, 1), scatterer.over(EQUAL, 1)]
+            numbers += [square / EQUAL - 1, kurtosis / 3 - 1, scatterer / EQUAL - 1]
         crossing, ends = flux["flux"], profile["scatterer_density"]
         momentum = crossing.axes["momentum"]
         density, error = (
@@ -45,8 +45,8 @@ def equilibrium(data: Data) -> list[Estimate]:
         of_particles = largest_distance(momentum, density, error, EQUAL)
         of_scatterers = largest_distance(ends.axes["momentum"], both[0], both[1], EQUAL)
         numbers += [
-            Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, freedom(flux)),
-            Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, freedom(profile)),
+            Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, dof(flux)),
+            Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, dof(profile)),
         ]
     return numbers
 
@@ -67,9 +67,7 @@ def jump_and_halves(data: Data) -> list[Estimate]:
     """Jump of F at p = 0 over max F, and departure of the outgoing halves from a Gaussian, by the kinetic equation at both ends."""
     result = data.one("fig03", "paper")
     largest = float(result["flux_density"].mean.max())
-    jumps = [
-        estimate(result, "jump", end, f"jump/max F, x = {half}").over(largest) for end, half, _ in OUTGOING
-    ]
+    jumps = [estimate(result, "jump", end, f"jump/max F, x = {half}") / largest for end, half, _ in OUTGOING]
     return [*jumps, *_departures(result)]
 
 
@@ -81,7 +79,7 @@ def not_gaussian(data: Data) -> list[Estimate]:
 def _departures(result: Result) -> list[Estimate]:
     """|<p^4>/<p^2>^2 - 3| of both outgoing halves, which is 0 for a Gaussian."""
     return [
-        _magnitude(estimate(result, "kurtosis", (end, half), f"|⟨p⁴⟩/⟨p²⟩² - 3|, {name}").over(1, 3))
+        _magnitude(estimate(result, "kurtosis", (end, half), f"|⟨p⁴⟩/⟨p²⟩² - 3|, {name}") - 3)
         for end, half, name in OUTGOING
     ]
 
@@ -92,9 +90,9 @@ def _magnitude(number: Estimate) -> Estimate:
 
 
 def _finite(data: Data) -> tuple[pd.DataFrame, float]:
-    """Deviations of finite chains from the kinetic equation, and the degrees of freedom of their errors."""
-    simulated = data.of("fig03_inset", "simulation")
-    return deviations(simulated + data.of("fig03_inset", "continuum", "mean-field")), freedom(*simulated)
+    """Deviations of finite chains from the kinetic equation, and the degrees of dof of their errors."""
+    simulated = data.results("fig03_inset", "simulation")
+    return deviations(simulated + data.results("fig03_inset", "continuum", "mean-field")), dof(*simulated)
 
 
 def deviations_over_bounds(data: Data) -> list[Estimate]:
@@ -105,7 +103,7 @@ def deviations_over_bounds(data: Data) -> list[Estimate]:
     for row in rows[(rows.kind == SIMULATION) & (rows.momentum.abs() < REACH)].itertuples():
         bound = PRINTED.get(row.cells, OTHERWISE)
         label = f"(F_N - F)/{100 * bound:g} %, N = {row.cells}, p = {row.momentum:g}"
-        numbers.append(Estimate(label, scale * row.deviation, scale * row.error, degrees).over(bound))
+        numbers.append(Estimate(label, scale * row.deviation, scale * row.error, degrees) / bound)
     return numbers
 
 
@@ -149,7 +147,7 @@ def _mean_magnitude(left: Estimate, right: Estimate) -> Estimate:
 def tends_to_kinetic(data: Data) -> list[Estimate]:
     """Exponent of F_N - F at p = 0, where it is largest, against N."""
     table, degrees = _finite(data)
-    runs = by_size(data.of("fig03_inset", "simulation"))
+    runs = by_size(data.results("fig03_inset", "simulation"))
     cells = [run.parameters["cells"] for run in runs]
     central = [_mean_magnitude(*_central(_of_size(table, size), degrees)) for size in cells]
     return [power(runs, cells, central, f"d ln|F_N - F|/d ln N at p = 0, N = {cells[0]} to {cells[-1]}")]
@@ -160,9 +158,7 @@ def on_top_of_kinetic(data: Data) -> list[Estimate]:
     simulated, kinetic = data.one("fig04a", "rare"), data.one("fig04a", "kinetic")["flux"]
     flux, scale = simulated["flux"], float(kinetic.mean.max())
     return [
-        estimate(simulated, "flux", (bond, k), f"(F_N - F)/max F, {name}, p = {p:g}").over(
-            scale, value / scale
-        )
+        estimate(simulated, "flux", (bond, k), f"(F_N - F)/max F, {name}, p = {p:g}") / scale - value / scale
         for bond, name in ENDS
         for k, (p, value) in enumerate(zip(flux.axes["momentum"], _behind(kinetic, bond, flux), strict=True))
         if abs(p) < REACH
@@ -189,9 +185,7 @@ def jump_from_rates_only(data: Data) -> list[Estimate]:
     equal, kinetic = (data.one("fig04b", run) for run in ("equal", "mean-field-equal"))
     scale = float(equal["flux"].mean.max())
     missed = max(_extrapolation_errors(kinetic, equal["flux"])) / scale
-    jumps = [
-        estimate(equal, "jump", bond, f"jump/max F at ν_L = ν_R, {name}").over(scale) for bond, name in ENDS
-    ]
+    jumps = [estimate(equal, "jump", bond, f"jump/max F at ν_L = ν_R, {name}") / scale for bond, name in ENDS]
     return [with_systematic(jump, [jump.value + missed]) for jump in jumps]
 
 

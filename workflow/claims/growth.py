@@ -18,7 +18,7 @@ from workflow.claims.data import (
 from workflow.claims.verdict import Estimate
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 from workflow.physics.rings import chain
 
 T = TypeVar("T")
@@ -49,7 +49,7 @@ def of_largest(data: Data, gamma: str | int) -> Estimate:
 
 def sizes(data: Data, gamma: str | int) -> list[Result]:
     """Stationary runs of fig. 8 at the paper's spacing, by N."""
-    return _stationary(data.of("fig08", *SIZES[gamma]))
+    return _stationary(data.results("fig08", *SIZES[gamma]))
 
 
 def _stationary(runs: Iterable[Result]) -> list[Result]:
@@ -88,7 +88,7 @@ def superdiffusive(data: Data) -> list[Estimate]:
     """beta of <Q²> ∼ t^beta, from t = LATE on in the longest ring of every gas that was measured so long. The errors of both ends are taken as independent, which
     overestimates that of their ratio."""
     numbers = []
-    for ring in _longest(data.of("momentum", *ELASTIC)):
+    for ring in _longest(data.results("momentum", *ELASTIC)):
         times = ring["heat_variance"].axes["time"]
         first = int(np.searchsorted(times, LATE))
         early, late = (estimate(ring, "heat_variance", k) for k in (first, -1))
@@ -125,8 +125,8 @@ def without_momentum(data: Data) -> list[Estimate]:
 def _disturbed(data: Data, passing: str, reversal: str) -> tuple[list[Result], list[Result]]:
     """Runs of both series in which DISTURBED is the probability of the disturbance. Raises MissingError without one."""
     runs = (
-        [run for run in data.of("momentum", passing) if setting.passing(run) == DISTURBED],
-        data.of("momentum", reversal, reversal_probability=DISTURBED),
+        [run for run in data.results("momentum", passing) if run_parameters.passing(run) == DISTURBED],
+        data.results("momentum", reversal, reversal_probability=DISTURBED),
     )
     if not runs[0]:
         raise MissingError(f"no run of {passing} in which a fraction of {DISTURBED:g} passes")

@@ -45,7 +45,7 @@ def read_claims(root: Path) -> list[dict[str, str]]:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
         for row in rows:
-            Band.of(row["band"])
+            Band.parse(row["band"])
             function_of(row)
             if row["kind"] not in KINDS:
                 raise ValueError(f"{row['kind']} is not a kind: write {' or '.join(KINDS)}")
@@ -61,7 +61,7 @@ def judge_all(data: Data) -> list[Judgement]:
 
 
 def judge(row: Mapping[str, str], data: Data, level: float) -> Judgement:
-    band = Band.of(row["band"])
+    band = Band.parse(row["band"])
     try:
         return Judgement(row, Verdict(band, tuple(function_of(row)(data)), level))
     except MissingError as error:

@@ -26,7 +26,7 @@ def temperatures_mismatch(data: Data) -> list[Estimate]:
         scale = high - low
         first = estimate(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}")
         last = estimate(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}")
-        jumps += [first.over(scale, low / scale), last.over(-scale, -high / scale)]
+        jumps += [first / scale - low / scale, last / -scale - -high / scale]
     steeper = combination(jumps, [-1, -1, 1, 1], "(T_N - T₁)/(T_R - T_L), γ = N minus γ = 1")
     return [*jumps, steeper]
 
@@ -37,7 +37,7 @@ def temperatures_coincide(data: Data) -> list[Estimate]:
     for result, name in _both(data):
         for k, local in enumerate(result["temperature_particle"].mean):
             label = f"T of scatterer/T of particles - 1 in cell {k + 1}, {name}"
-            numbers.append(estimate(result, "temperature_difference", k, label).over(local))
+            numbers.append(estimate(result, "temperature_difference", k, label) / local)
     return numbers
 
 
@@ -47,7 +47,7 @@ def density_profiles(data: Data) -> list[Estimate]:
     both = [result for result, _ in _both(data)]
     above, below = (estimate(profile, "density_slope") for profile in reversed(both))
     slope = ratio(above, below, "")
-    less = replace(slope.over(-1, -1), label="1 - slope(γ = 1)/slope(γ = N)")
+    less = replace(slope / -1 - -1, label="1 - slope(γ = 1)/slope(γ = N)")
     excess = []
     for end, name in enumerate(("first", "last")):
         ends = [estimate(profile, "density_excess", end) for profile in both]
@@ -63,5 +63,5 @@ def linear_rates(data: Data) -> list[Estimate]:
         for quantity, words, first in DEVIATIONS:
             for k in range(len(result[f"{quantity}_deviation"].mean)):
                 label = f"{words} {k + first}, {name}"
-                numbers.append(estimate(result, f"{quantity}_deviation", k, label).over(scale))
+                numbers.append(estimate(result, f"{quantity}_deviation", k, label) / scale)
     return numbers

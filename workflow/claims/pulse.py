@@ -24,8 +24,8 @@ def peaks_leave(data: Data) -> list[Estimate]:
     result = data.one("fig09a", PAPERS_START)
     share = estimate(result, "centre_share", -1, "fraction in the centre/0.1")
     slowing = replace(_slowing(result), label="(d ln v/d ln t)/(1/4)")
-    odd = [part.over(ODD) for part in _odd_parts(result)]
-    return [share.over(LEFT), *odd, slowing.over(SPEED)]
+    odd = [part / ODD for part in _odd_parts(result)]
+    return [share / LEFT, *odd, slowing / SPEED]
 
 
 def _odd_parts(result: Result) -> list[Estimate]:
@@ -35,7 +35,7 @@ def _odd_parts(result: Result) -> list[Estimate]:
     for k in np.flatnonzero(np.isfinite(position)):
         nearest = int(np.abs(distance - position[k]).argmin())
         label = f"odd part of the peak/0.1, t = {times[k]:g}"
-        numbers.append(estimate(result, "odd_part", (k, nearest), label).over(height[k]))
+        numbers.append(estimate(result, "odd_part", (k, nearest), label) / height[k])
     return numbers
 
 
@@ -102,7 +102,7 @@ def relation_of_moving_peaks(data: Data) -> list[Estimate]:
     for panel, gamma in (("fig09a", "N"), ("fig09b", 1)):
         xi = _of_all_times(data.one(panel, PAPERS_START), "")
         slope = xi.value**-2
-        expected = Estimate("", 2 - 1 / xi.value, slope * xi.error, xi.freedom, slope * xi.systematic)
+        expected = Estimate("", 2 - 1 / xi.value, slope * xi.error, xi.dof, slope * xi.systematic)
         label = f"2 - 1/ξ minus exponent of κ, γ = {gamma}"
         excesses.append(combination([expected, of_largest(data, gamma)], [1, -1], label))
     return excesses

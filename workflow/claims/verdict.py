@@ -24,24 +24,26 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Estimate:
-    """A measured number. error: standard error with `freedom` degrees of freedom; systematic: bound on the systematic error."""
+    """A measured number. error: standard error with `dof` degrees of dof; systematic: bound on the systematic error."""
 
     label: str
     value: float
     error: float
-    freedom: float = math.inf
+    dof: float = math.inf
     systematic: float = 0.0
 
-    def over(self, unit: float, minus: float = 0) -> "Estimate":
-        """The number value/unit - minus, with its errors divided by |unit|."""
+    def __truediv__(self, unit: float) -> "Estimate":
         size = abs(unit)
         return replace(
-            self, value=self.value / unit - minus, error=self.error / size, systematic=self.systematic / size
+            self, value=self.value / unit, error=self.error / size, systematic=self.systematic / size
         )
+
+    def __sub__(self, expected: float) -> "Estimate":
+        return replace(self, value=self.value - expected)
 
     def interval(self, level: float) -> tuple[float, float]:
         """Interval that contains the true value with the probability 1 - level."""
-        half = critical(level, self.freedom) * self.error + self.systematic if self.error else self.systematic
+        half = critical(level, self.dof) * self.error + self.systematic if self.error else self.systematic
         return self.value - half, self.value + half
 
 
@@ -53,7 +55,7 @@ class Band:
     high: float
 
     @classmethod
-    def of(cls, text: str) -> "Band":
+    def parse(cls, text: str) -> "Band":
         """Parses a band as written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
         match text.split():
             case ["above", low]:
@@ -80,7 +82,7 @@ class Verdict:
     numbers: tuple[Estimate, ...]
     level: float
 
-    def of(self, number: Estimate) -> Outcome:
+    def outcome_of(self, number: Estimate) -> Outcome:
         """Verdict on one of the numbers."""
         low, high = number.interval(self.level / len(self.numbers))
         if self.band.low <= low and high <= self.band.high:
@@ -89,7 +91,7 @@ class Verdict:
 
     @property
     def outcome(self) -> Outcome:
-        outcomes = {self.of(number) for number in self.numbers} or {Outcome.UNDECIDED}
+        outcomes = {self.outcome_of(number) for number in self.numbers} or {Outcome.UNDECIDED}
         order = (Outcome.CONTRADICTED, Outcome.UNDECIDED, Outcome.REPRODUCED)
         return next(outcome for outcome in order if outcome in outcomes)
 
@@ -113,8 +115,8 @@ def level_of_each(claims: int) -> float:
 
 
 @cache
-def critical(level: float, freedom: float) -> float:
-    return -float(stdtrit(freedom, level / 2))
+def critical(level: float, dof: float) -> float:
+    return -float(stdtrit(dof, level / 2))
 
 
 def with_systematic(number: Estimate, others: Sequence[float]) -> Estimate:

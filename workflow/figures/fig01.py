@@ -16,7 +16,7 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 TITLE = "Momentum distribution of the particles in a filling chain"
 UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
@@ -37,7 +37,7 @@ def tabulate(result: Result) -> pd.DataFrame:
         estimate = result[name]
         for column, values in ((name, estimate.mean), (f"{name}_error", estimate.error)):
             table[column] = table.time.map(dict(zip(estimate.axes["time"], values, strict=True)))
-    table.insert(0, "cell_length", setting.spacing(result)[0])
+    table.insert(0, "cell_length", run_parameters.spacing(result)[0])
     return table
 
 
@@ -65,12 +65,12 @@ def caption(results: Sequence[Result]) -> str:
     first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
         The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). At λ =
-        {setting.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there), rows show the paper's bins, bins of ln|p|, and p_0 over λ/et. {ERRORS}"""
+        {run_parameters.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there), rows show the paper's bins, bins of ln|p|, and p_0 over λ/et. {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
-    results = setting.in_order_of_spacing(results)
+    results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)
     figure, rows = plt.subplots(
         3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1], squeeze=False
@@ -85,7 +85,7 @@ def draw(results: Sequence[Result]) -> Parts:
         ratio = front.front / expected
         below.errorbar(front.time, ratio, front.front_error / expected, **FRONT)
         below.axhline(1, **style.GUIDE)
-        name = rf"$\lambda = {setting.spacing(result)[1]}$"
+        name = rf"$\lambda = {run_parameters.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)

@@ -16,7 +16,7 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 TITLE = "Number of particles in a filling chain"
 UNITS = {"slope": "1", "slope_time": "time", "number": "1", "number_fitted": "1"}
@@ -42,7 +42,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     line = count.mean[late].mean() + float(result["log_slope"].mean) * (x - x[late].mean())
     table = pd.DataFrame({"time": time, "number": count.mean, "number_error": count.error})
     table["number_fitted"] = np.where(late & straight(result), line, np.nan)
-    table.insert(0, "cell_length", setting.spacing(result)[0])
+    table.insert(0, "cell_length", run_parameters.spacing(result)[0])
     return pd.concat([table, slopes(table)], axis=1)
 
 
@@ -61,7 +61,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     axes.errorbar(table.time, table.number, table.number_error, **NUMBER, label="$n(t)$")
     if straight(result):
         axes.plot(table.time, table.number_fitted, color=style.BLACK, zorder=3, label=r"$a + b\,\ln t$")
-    title = rf"$\lambda = {setting.spacing(result)[1]}$"
+    title = rf"$\lambda = {run_parameters.spacing(result)[1]}$"
     filled = table.cell_length.iloc[0] < 1
     axes.legend(title=title, alignment="left", loc="lower right" if filled else "upper left")
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
@@ -81,14 +81,14 @@ def caption(results: Sequence[Result]) -> str:
     slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
     fit = f"The line has the slope {slope}" if straight(chain) else "No line is fitted"
     return f"""
-        The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {setting.spacing(chain)[1]}, it
+        The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {run_parameters.spacing(chain)[1]}, it
         is {shape} in ln t. (a) {fit}. (b) Another spacing. (c), (d) In
         filled chains the slope equals the height of |p| n_t(|p|), {height} in (c). {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
-    results = setting.in_order_of_spacing(results)
+    results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)
     figure, rows = plt.subplots(
         2, len(results), sharex="col", figsize=size, height_ratios=[2, 1], squeeze=False

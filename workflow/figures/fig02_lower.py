@@ -9,7 +9,7 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 TITLE = "Density profiles"
 UNITS = dict.fromkeys(("x", "bulk", "relative"), "1")
@@ -24,13 +24,13 @@ def tabulate(result: Result) -> pd.DataFrame:
     table["bulk"] = np.polyval(np.polyfit(bulk.x, bulk.density, 1), table.x)
     table["relative"] = table.density / table.bulk
     table["relative_error"] = table.density_error / table.bulk
-    table.insert(0, "gamma", setting.gamma(result))
+    table.insert(0, "gamma", run_parameters.gamma(result))
     return table
 
 
 def caption(results: Sequence[Result]) -> str:
     excess = listed(
-        f"{style.format_quantity(result['density_excess'], 0, 100)} % at γ = {setting.gamma(result)}"
+        f"{style.format_quantity(result['density_excess'], 0, 100)} % at γ = {run_parameters.gamma(result)}"
         for result in results
     )
     return f"""
@@ -45,7 +45,7 @@ def draw(results: Sequence[Result]) -> Parts:
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
         look = style.points(*style.BY_GAMMA[result.parameters["gamma"]], "white")
-        label = rf"$\gamma = {setting.gamma(result)}$"
+        label = rf"$\gamma = {run_parameters.gamma(result)}$"
         above.errorbar(table.x, table.density, table.density_error, **look, label=label)
         above.plot(table.x, table.bulk, color=look["color"], linewidth=0.6, zorder=1)
         below.errorbar(table.x, table["relative"], table.relative_error, **look)

@@ -13,7 +13,7 @@ from workflow.lib.caption import ERRORS, baths, format_number, listed, parameter
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 TITLE = "Temperature profiles"
 UNITS = {"x": "1"} | dict.fromkeys(("scatterer", "particle", "particle_minus_scatterer"), "temperature")
@@ -28,13 +28,13 @@ def tabulate(result: Result) -> pd.DataFrame:
     table["particle"], table["particle_error"] = particle.mean, particle.error
     table["particle_minus_scatterer"] = -difference.mean
     table["particle_minus_scatterer_error"] = difference.error
-    table.insert(0, "gamma", setting.gamma(result))
+    table.insert(0, "gamma", run_parameters.gamma(result))
     return table
 
 
 def caption(results: Sequence[Result]) -> str:
     first = listed(
-        f"{style.format_quantity(result['temperature_scatterer'], 0)} at γ = {setting.gamma(result)}"
+        f"{style.format_quantity(result['temperature_scatterer'], 0)} at γ = {run_parameters.gamma(result)}"
         for result in results
     )
     differences = pd.concat(tabulate(result) for result in results).reset_index(drop=True)
@@ -56,8 +56,8 @@ def draw(results: Sequence[Result]) -> Parts:
     for result, table in zip(results, tables, strict=True):
         marker, color = style.BY_GAMMA[result.parameters["gamma"]]
         look = style.points(marker, color, "white")
-        name = rf"$\gamma = {setting.gamma(result)}$"
-        dashes = "solid" if setting.gamma(result) == "N" else "dashed"
+        name = rf"$\gamma = {run_parameters.gamma(result)}$"
+        dashes = "solid" if run_parameters.gamma(result) == "N" else "dashed"
         above.errorbar(table.x, table.scatterer, table.scatterer_error, **look, label=f"{name}, scatterers")
         above.plot(table.x, table.particle, color=color, linestyle=dashes, label=f"{name}, particles")
         style.band(above, table.x, table.particle, table.particle_error, color)

@@ -15,7 +15,7 @@ from workflow.lib import style
 from workflow.lib.caption import baths, format_number, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 TITLE = "Momentum distribution of the particles at both ends, by the kinetic equation"
 UNITS = {"gaussian": "1/(time momentum)"}
@@ -83,8 +83,10 @@ def draw(results: Sequence[Result]) -> Parts:
         draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
-    above.set(ylabel="$F(p, x)$", xlim=(-setting.SHOWN_MOMENTA, setting.SHOWN_MOMENTA), ylim=(0, None))
-    style.second_axis(above, 1 / setting.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
+    above.set(
+        ylabel="$F(p, x)$", xlim=(-run_parameters.SHOWN_MOMENTA, run_parameters.SHOWN_MOMENTA), ylim=(0, None)
+    )
+    style.second_axis(above, 1 / run_parameters.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
     below.plot([], [], color="grey", linestyle="dotted", label=r"$T_L = T_R$, $\nu_L > \nu_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")

@@ -17,7 +17,7 @@ from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 from workflow.physics.fluxes import at
 
 UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
@@ -38,7 +38,9 @@ def measured(results: Sequence[Result]) -> list[Result]:
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the chain of `like`; None if there is none."""
     for result in results:
-        same = setting.gamma(result) == setting.gamma(like) and result.ends("nu") == like.ends("nu")
+        same = run_parameters.gamma(result) == run_parameters.gamma(like) and result.ends("nu") == like.ends(
+            "nu"
+        )
         same &= like.parameters["rule"] == "elastic"
         if same and result.provenance["program"] == "boltzmann":
             return result
@@ -57,7 +59,7 @@ def at_ends(results: Sequence[Result]) -> pd.DataFrame:
             where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
             part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
         part["nu_left"], part["nu_right"] = result.ends("nu")
-        part.insert(0, "gamma", setting.gamma(result))
+        part.insert(0, "gamma", run_parameters.gamma(result))
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 
@@ -84,7 +86,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
 def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     for end, part in table.groupby("x", sort=False):
         _, color, dashes, marker = ENDS[end]
-        for half in halves(part[part.momentum.abs() < setting.SHOWN_MOMENTA]):
+        for half in halves(part[part.momentum.abs() < run_parameters.SHOWN_MOMENTA]):
             unit = table.kinetic.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
             look |= {"elinewidth": 0.6, "linewidth": 0.6}
@@ -95,7 +97,7 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(
         xlabel="momentum $p$",
         ylabel=r"$F_N - F$ / % of max $F$",
-        xlim=(-setting.SHOWN_MOMENTA, setting.SHOWN_MOMENTA),
+        xlim=(-run_parameters.SHOWN_MOMENTA, run_parameters.SHOWN_MOMENTA),
     )
 
 
@@ -145,7 +147,7 @@ def jumps_of(part: pd.DataFrame) -> str:
 
 
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
-    runs = [result for result in measured(results) if setting.gamma(result) == main.gamma.iloc[0]]
+    runs = [result for result in measured(results) if run_parameters.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
     if chain.parameters["gamma"] == "N":
@@ -170,9 +172,9 @@ def draw(results: Sequence[Result]) -> Parts:
         figsize=(2 * style.COLUMN, 1.6 * style.HEIGHT),
         height_ratios=[1.7, 1],
     )
-    draw_distribution(panels["main"], unequal, setting.SHOWN_MOMENTA)
+    draw_distribution(panels["main"], unequal, run_parameters.SHOWN_MOMENTA)
     draw_distribution(panels["near"], unequal, NEAR)
-    style.second_axis(panels["main"], 1 / setting.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
+    style.second_axis(panels["main"], 1 / run_parameters.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], main)
     corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}

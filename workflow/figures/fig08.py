@@ -18,7 +18,7 @@ from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 TITLE = "Heat conductivity against the size of the chain"
 UNITS = dict.fromkeys(("exponent_to_next", "mean_field_exponent_to_next"), "1")
@@ -43,7 +43,7 @@ def mean_field(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         cells, temperature = int(result.parameters["cells"]), result["temperature_scatterer"].mean
         kappa = -float(result["energy_current"].mean) * cells / (temperature[-1] - temperature[0])
-        rows.append({"gamma": setting.gamma(result), "cells": cells, "mean_field_kappa": kappa})
+        rows.append({"gamma": run_parameters.gamma(result), "cells": cells, "mean_field_kappa": kappa})
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     middle, slope, _ = local_exponents(table.cells, table.mean_field_kappa, 0 * table.cells)
     return table.assign(
@@ -56,7 +56,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     size in common."""
     rows: list[dict[str, Any]] = []
     for result in results:
-        row = {"gamma": setting.gamma(result), "cells": int(result.parameters["cells"])}
+        row = {"gamma": run_parameters.gamma(result), "cells": int(result.parameters["cells"])}
         rows.append(row | {"usable": result.usable} | result.columns("kappa", "energy_current"))
     table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]

@@ -17,7 +17,7 @@ from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 from workflow.physics.closed import quasi_stationary
 from workflow.physics.pulse import in_order, label, look, look_of, start
 from workflow.physics.sound import Chain
@@ -119,7 +119,7 @@ def draw(results: Sequence[Result]) -> Parts:
     if results[0].parameters["gamma"] == "N":
         style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
-    name = rf"$\gamma = {setting.gamma(results[0])}$"
+    name = rf"$\gamma = {run_parameters.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")
     position.set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
     speed.set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")

@@ -14,7 +14,7 @@ from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 from workflow.physics.pulse import in_order, label, look_of, start
 
 UNITS = dict.fromkeys(("exponent_from_here", "octave_exponent"), "1")
@@ -123,7 +123,7 @@ def draw(results: Sequence[Result]) -> Parts:
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
     corner: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
-    above.text(0.95, 0.95, rf"$\gamma = {setting.gamma(results[0])}$", **corner)
+    above.text(0.95, 0.95, rf"$\gamma = {run_parameters.gamma(results[0])}$", **corner)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure, table, caption(results)
 

@@ -18,7 +18,7 @@ from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics import rings, setting
+from workflow.physics import rings, run_parameters
 
 TITLE = "Heat transport with and without conserved momentum"
 UNITS = dict.fromkeys(("passing", "epsilon", "zeta", "mass", "growth"), "1")
@@ -54,8 +54,11 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per chain, sorted by N, with kappa over that at the smallest size that all curves have."""
     rows: list[dict[str, Any]] = []
     for result in results:
-        row: dict[str, Any] = {"passing": setting.passing(result), "epsilon": setting.epsilon(result)}
-        row |= {"spacing": setting.spacing(result)[1], "cells": int(result.parameters["cells"])}
+        row: dict[str, Any] = {
+            "passing": run_parameters.passing(result),
+            "epsilon": run_parameters.epsilon(result),
+        }
+        row |= {"spacing": run_parameters.spacing(result)[1], "cells": int(result.parameters["cells"])}
         rows.append(row | result.columns("kappa") | {"usable": result.usable})
     table = pd.DataFrame(rows).sort_values([*CURVE, "cells"], ignore_index=True)
     reference = (

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 
-def write_together(contents: Mapping[Path, bytes]) -> None:
+def write_atomically(contents: Mapping[Path, bytes]) -> None:
     """Writes all files under temporary names, then renames them in order. If the disk is full, the old files are kept. Raises OSError."""
     files = {path: path.with_name(f"{path.name}.{os.getpid()}.tmp") for path in contents}
     try:
@@ -19,7 +19,7 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
             file.unlink(missing_ok=True)
 
 
-def in_one_line(error: OSError) -> str:
+def format_os_error(error: OSError) -> str:
     """File name and error as one line."""
     names = [str(name) for name in (error.filename, error.filename2) if name is not None]
     return f"{' to '.join(names)}: {error.strerror}" if names else str(error)

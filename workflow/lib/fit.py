@@ -10,13 +10,13 @@ LEVEL = 1e-2  # p-value below which a law is rejected
 
 @dataclass(frozen=True)
 class Line:
-    """y = intercept + slope x, with the error of the slope, chi^2 and its degrees of freedom."""
+    """y = intercept + slope x, with the error of the slope, chi^2 and its degrees of dof."""
 
     intercept: float
     slope: float
     error: float
     chi_square: float
-    freedom: int
+    dof: int
 
     def at(self, x: ArrayLike) -> np.ndarray:
         return self.intercept + self.slope * np.asarray(x, dtype=float)
@@ -24,13 +24,13 @@ class Line:
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """y = amplitude x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
+    """y = amplitude x^exponent, with the error of the exponent, chi^2 and its degrees of dof."""
 
     amplitude: float
     exponent: float
     error: float
     chi_square: float
-    freedom: int
+    dof: int
 
     @property
     def text(self) -> str:
@@ -38,22 +38,22 @@ class PowerLaw:
 
     @property
     def rejected(self) -> bool:
-        return rejected(self.chi_square, self.freedom)
+        return rejected(self.chi_square, self.dof)
 
     def at(self, x: ArrayLike) -> np.ndarray:
         return self.amplitude * np.asarray(x, dtype=float) ** self.exponent
 
 
-def p_value(chi_square: float, freedom: int) -> float:
-    """p-value of chi^2; nan without a degree of freedom."""
+def p_value(chi_square: float, dof: int) -> float:
+    """p-value of chi^2; nan without a degree of dof."""
     # Imported here: most panels need no p-value, and the import takes a tenth of their time.
     from scipy.special import chdtrc  # noqa: PLC0415
 
-    return float(chdtrc(freedom, chi_square)) if freedom > 0 else np.nan
+    return float(chdtrc(dof, chi_square)) if dof > 0 else np.nan
 
 
-def rejected(chi_square: float, freedom: int) -> bool:
-    return p_value(chi_square, freedom) < LEVEL
+def rejected(chi_square: float, dof: int) -> bool:
+    return p_value(chi_square, dof) < LEVEL
 
 
 def format_with_error(value: float, error: float, systematic: float = 0) -> str:
@@ -93,4 +93,4 @@ def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
     """Power law by a line through ln y against ln x."""
     y = np.asarray(y, dtype=float)
     line = fit_line(np.log(np.asarray(x, dtype=float)), np.log(y), np.asarray(error, dtype=float) / y)
-    return PowerLaw(float(np.exp(line.intercept)), line.slope, line.error, line.chi_square, line.freedom)
+    return PowerLaw(float(np.exp(line.intercept)), line.slope, line.error, line.chi_square, line.dof)

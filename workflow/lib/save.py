@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from workflow.lib.files import write_together
+from workflow.lib.files import write_atomically
 from workflow.lib.identity import FORMER, ROOT, sha256, siblings, statement
 
 CREATOR = "lorentz-gas"
@@ -87,7 +87,7 @@ def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], reco
         archived.parent.mkdir(parents=True, exist_ok=True)
         former.replace(archived)
     files = {stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()}
-    write_together(files | {path: text.encode()})
+    write_atomically(files | {path: text.encode()})
 
 
 def commit() -> str:

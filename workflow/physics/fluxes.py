@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib.load import Quantity, Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
 
@@ -42,4 +42,4 @@ def deviations(results: Sequence[Result]) -> pd.DataFrame:
         tables.append(table)
     # In the normalisation that the paper prints, F of a chain without correlations integrates to 1.
     table = pd.concat(tables, ignore_index=True)
-    return table.assign(absolute_as_printed=table.deviation * largest / setting.both_rates(continuum))
+    return table.assign(absolute_as_printed=table.deviation * largest / run_parameters.both_rates(continuum))

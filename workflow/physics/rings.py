@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib.load import Result
-from workflow.physics import setting
+from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
 
 GAS = ["rule", "passing", "epsilon", "zeta", "mass"]  # columns that identify a gas
@@ -24,7 +24,11 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        scattering = (result.parameters["rule"], setting.passing(result), setting.epsilon(result))
+        scattering = (
+            result.parameters["rule"],
+            run_parameters.passing(result),
+            run_parameters.epsilon(result),
+        )
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,

@@ -11,7 +11,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from workflow.lib.files import in_one_line
+from workflow.lib.files import format_os_error
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import options_of_programs
@@ -81,7 +81,7 @@ def read(folder: Path, name: str) -> Document:
         content = SAFE.constructor.construct_document(root) if root else None
         return Document(_shown(folder / name), root, content)
     except OSError as error:
-        raise ConfigurationError(in_one_line(error)) from error
+        raise ConfigurationError(format_os_error(error)) from error
     except MarkedYAMLError as error:
         mark = error.problem_mark
         position = f"{mark.line + 1}:{mark.column + 1}"

@@ -108,7 +108,7 @@ class Selection:
     error: float | None = None  # relative standard error of the target quantity of every run
 
     @classmethod
-    def of(cls, name: str) -> "Selection":
+    def parse(cls, name: str) -> "Selection":
         """Parses the name of the folder. Raises ConfigurationError."""
         base, *given = name.split("_")
         if base not in QUALITIES:
@@ -135,7 +135,7 @@ class Selection:
         given = {"QUALITY": self.quality, **{key.upper(): getattr(self, key) for key in OVERRIDES}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
-    def complete(self, panel: str, run: str, options: Options, scale: float | None) -> Options:
+    def with_effort(self, panel: str, run: str, options: Options, scale: float | None) -> Options:
         """Options of a replicated run with its effort as options of the program, and its seed. scale: reference value of
         the error where the target may be 0."""
         own = {key: value for key, value in options.items() if key not in ("replicas", "error")}
@@ -159,7 +159,7 @@ def seed_of(text: str) -> int:
 @cache
 def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
     """All panels of a quality, by name. Raises ConfigurationError."""
-    selection = Selection.of(name)
+    selection = Selection.parse(name)
     paper, efforts = load_configuration(selection.quality, folder)
     effort = efforts.content
     panels = {name: _panel(name, panel, effort, selection) for name, panel in paper.content["panels"].items()}
@@ -291,7 +291,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(chosen.items()))])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
-            completed = selection.complete(name, run, given, scale) if replicated else given
+            completed = selection.with_effort(name, run, given, scale) if replicated else given
             runs.append(Run(run, program, completed, series))
     uses, reads = (tuple(panel.get(key, ())) for key in ("uses", "reads"))
     beyond = panel.get("beyond", False)

@@ -21,5 +21,5 @@ def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:
             for path, (owner, run) in names.items()
         }
     except FormatError as error:
-        remedy = f"run make panel PANEL={panel} {Selection.of(quality).arguments}"
+        remedy = f"run make panel PANEL={panel} {Selection.parse(quality).arguments}"
         raise FormatError(f"{error}; {remedy}") from error

@@ -37,7 +37,7 @@ def value(number: Estimate) -> str:
     size = max(abs(number.value), number.error, number.systematic)
     if 0 < size < 1e-3:
         power = math.floor(math.log10(size))
-        scaled = value(number.over(10.0**power))
+        scaled = value(number / 10.0**power)
         return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
     if math.isnan(number.error):
         return f"{number.value:.4g} (error unknown)".replace("-", MINUS)

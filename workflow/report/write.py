@@ -16,7 +16,7 @@ import pandas as pd
 from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
-from workflow.lib.files import in_one_line, write_together
+from workflow.lib.files import format_os_error, write_atomically
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import commit, reduced, write_product
@@ -58,7 +58,7 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
     page = environment.get_template("page.html.j2").render(
         release=release,
         quality=data.quality,
-        effort=Selection.of(data.quality).arguments,
+        effort=Selection.parse(data.quality).arguments,
         kinds=KINDS,
         outcomes=[*Outcome],
         rows=rows,
@@ -112,9 +112,11 @@ def shown(judgement: Judgement) -> dict[str, Any]:
         "band": typeset.acceptance(verdict.band),
         "value": typeset.value(verdict.shown) if numbers else "not measured",
         "label": verdict.shown.label if numbers else "",
-        "list": [(number.label, typeset.value(number), verdict.of(number).value) for number in listed],
+        "list": [
+            (number.label, typeset.value(number), verdict.outcome_of(number).value) for number in listed
+        ],
         "omitted": len(numbers) - len(listed),
-        "outside": sum(verdict.of(number) is Outcome.CONTRADICTED for number in numbers),
+        "outside": sum(verdict.outcome_of(number) is Outcome.CONTRADICTED for number in numbers),
         "least": typeset.value(numbers[0]) if numbers else "",
         "most": typeset.value(numbers[-1]) if numbers else "",
         "missing": judgement.missing,
@@ -132,7 +134,7 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
             "value": number.value,
             "error": number.error,
             "systematic": number.systematic,
-            "number_verdict": judgement.verdict.of(number).value,
+            "number_verdict": judgement.verdict.outcome_of(number).value,
         }
         for judgement in judgements
         for number in judgement.verdict.numbers
@@ -154,7 +156,7 @@ def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     folder = root / GALLERY
     pictures = {folder / f"{name}.png": reduced(root / f"{stem_of(name, quality)}.png") for name in data.plan}
     text = {folder / "README.md": rendered(judgements, data, release=True)}
-    write_together(pictures | text | {root / NUMBERS: numbers_file(judgements)})
+    write_atomically(pictures | text | {root / NUMBERS: numbers_file(judgements)})
     for former in {*folder.glob("*.png")} - pictures.keys():
         former.unlink()
 
@@ -169,7 +171,7 @@ def main() -> None:
     except (ConfigurationError, FormatError) as error:
         sys.exit(f"make report: {error}")
     except OSError as error:
-        sys.exit(f"make report: {in_one_line(error)}")
+        sys.exit(f"make report: {format_os_error(error)}")
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from workflow.lib.files import in_one_line
+from workflow.lib.files import format_os_error
 from workflow.lib.identity import sha256, siblings, sources_of_panel
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.lock import lock_products
@@ -67,7 +67,7 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
     try:
         load_provenance(path)
     except OSError as error:
-        return Fault("not checked", path, in_one_line(error))
+        return Fault("not checked", path, format_os_error(error))
     except FormatError as error:
         if Path(path).exists():
             return Fault("edited", path, str(error).removeprefix(path).strip(": "))

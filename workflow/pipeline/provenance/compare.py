@@ -14,12 +14,12 @@ from workflow.lib.load import FormatError, Quantity, Result, load
 from workflow.pipeline.plan import Selection, data_path, load_plan, runs_of
 
 SIGNIFICANCE = 1e-4  # p-value of the largest difference in a result
-COMPUTED = 1e6  # degrees of freedom of a discretisation error
-FEW = 16  # degrees of freedom, below which errors, especially of fitted positions, are too uncertain for a judgement
+COMPUTED = 1e6  # degrees of dof of a discretisation error
+FEW = 16  # degrees of dof, below which errors, especially of fitted positions, are too uncertain for a judgement
 
 
 def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Standard error of the difference between two estimates, and its degrees of freedom. shared: the fewer replicas are contained in
+    """Standard error of the difference between two estimates, and its degrees of dof. shared: the fewer replicas are contained in
     the more; for equal replicas, the error of one estimate."""
     if a.count is None or b.count is None:
         return np.asarray(a.discretisation_error), np.full(a.mean.shape, COMPUTED)
@@ -39,7 +39,7 @@ class Difference(NamedTuple):
 
     p: float
     deviation: float
-    freedom: float
+    dof: float
     quantity: str
 
     def __str__(self) -> str:
@@ -61,11 +61,11 @@ def largest_difference(one: Result, other: Result) -> Difference:
     for name, a in one.quantities.items():
         b = other[name]
         if a.mean.shape == b.mean.shape:
-            error, freedom = map(np.atleast_1d, error_of_difference(a, b, shared))
+            error, dof = map(np.atleast_1d, error_of_difference(a, b, shared))
             difference = np.atleast_1d(np.abs(a.mean - b.mean))
-            usable = (error > 0) & (freedom > 0) & np.isfinite(difference)
-            deviations, freedom = difference[usable] / error[usable], freedom[usable]
-            for numbers in zip(2 * stdtr(freedom, -deviations), deviations, freedom, strict=True):
+            usable = (error > 0) & (dof > 0) & np.isfinite(difference)
+            deviations, dof = difference[usable] / error[usable], dof[usable]
+            for numbers in zip(2 * stdtr(dof, -deviations), deviations, dof, strict=True):
                 p, deviation, free = map(float, numbers)
                 largest, number = min(largest, Difference(p, deviation, free, name)), number + 1
     return largest._replace(p=min(1.0, number * largest.p))
@@ -89,12 +89,12 @@ def compared(former: Path | str, path: Path | str, rerun: bool) -> Comparison:
     largest = largest_difference(one, other)
     if not (rerun or largest.quantity):
         raise FormatError(f"{path} has no errors to compare with, as of one replica")
-    return Comparison(0.0 if rerun else largest.p, str(largest), rerun or largest.freedom >= FEW)
+    return Comparison(0.0 if rerun else largest.p, str(largest), rerun or largest.dof >= FEW)
 
 
 def main(options: argparse.Namespace) -> int:
     """Compares the results of a command with SEED or REPLICAS."""
-    selection, found, excluded = Selection.of(options.quality), [], []
+    selection, found, excluded = Selection.parse(options.quality), [], []
     plan = load_plan(selection.quality)
     for path, run in runs_of(options.plan, options.panels or options.plan, selection.name).items():
         panel = Path(path).parent.name

@@ -21,7 +21,7 @@ HDF5 = b"\x89HDF"  # first bytes of a file
 
 
 def print_panel(panel: str, quality: str) -> None:
-    print(f"panel {panel}, quality {quality}: make panel PANEL={panel} {Selection.of(quality).arguments}")
+    print(f"panel {panel}, quality {quality}: make panel PANEL={panel} {Selection.parse(quality).arguments}")
 
 
 def print_command(origin: dict[str, Any], where: str = "") -> None:
@@ -37,7 +37,7 @@ def selections() -> list[str]:
     names = [*QUALITIES]
     for folder in Path("data").glob("*_*"):
         with suppress(ConfigurationError):  # a folder of the user
-            names.append(Selection.of(folder.name).name)
+            names.append(Selection.parse(folder.name).name)
     return names
 
 
