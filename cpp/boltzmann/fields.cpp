@@ -61,6 +61,10 @@ KineticFields::KineticFields(const KineticProblem& problem, const KineticSolutio
   const double push = grid.root_mass * grid.root_mass - 1;  // M - 1 [eq. 39]
   scatterer_temperature = particle_temperature.array() + push * mean.array().square();
 
+  const double first = scatterer_temperature(0), rise = scatterer_temperature.tail(1)(0) - first;
+  const bool defined = problem.cells > 1 && std::abs(rise) > 1e-10 * first;
+  conductivity = defined ? -energy_current * problem.cells / rise : std::numeric_limits<double>::quiet_NaN();
+
   rate_right = moments.right(0);
   rate_left = moments.left(0);
   jump = momenta.interpolation(VectorXd::Zero(1)) *

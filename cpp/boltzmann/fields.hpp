@@ -27,6 +27,7 @@ struct KineticFields {
   double particle_current, energy_current, momentum_flux;
   double current_spread;  // largest deviation of a current over x, relative to the injected one [eq. 40]
   Eigen::RowVectorXd scatterer_temperature, particle_temperature;  // [eq. 39]
+  double conductivity;  // of a chain [eq. 28]; NaN without a difference of temperature
   Eigen::RowVectorXd rate_right, rate_left;
   Eigen::RowVectorXd jump;   // of F at p = 0
   Eigen::MatrixXd kurtosis;  // row 0: p < 0, row 1: p > 0; NaN on overflow

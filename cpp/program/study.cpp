@@ -51,7 +51,7 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
                   "Independent replicas; not with a target error, which determines their number");
   options.integer("--seed", seed_, {},
                   "Key of all random streams; runs with the same seed have correlated results, so give each "
-                  "run of a scan its own");
+                  "run of a scan its own; required");
   options.real("--target-error", target_error_, non_negative, "1",
                fmt::format("Add replicas, {} at least, until the standard error of the target quantity, "
                            "relative to its mean, is below this with 95 % confidence; 0: no target",
@@ -98,6 +98,9 @@ void StudyProgram::require_memory() const {
 /// Loads the replicas of the checkpoint. Throws UsageError if there is one that neither --resume nor
 /// --overwrite refers to.
 void StudyProgram::prepare() {
+  if (!options().given("--seed"))
+    throw UsageError(
+        "--seed is missing: random numbers follow from it. Give every run its own, as --seed 1.");
   require_memory();
   checkpoint_.path = program_.output() + ".checkpoint";
   checkpoint_.identity = fmt::format("{} {}", options().words(), build_info.source_hash);

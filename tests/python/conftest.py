@@ -41,9 +41,10 @@ def soon(find: Callable[[], T], seconds: float = 300) -> T:
 
 def small(program: str) -> dict[str, object]:
     """Options with which a program, also one of the user, runs for a fraction of a second."""
-    return NAMED.get(
+    named = NAMED.get(
         program, {name: GENERAL[name] for name in GENERAL if name in options_of_programs()[program]}
     )
+    return named | ({"seed": 1} if "seed" in options_of_programs()[program] else {})
 
 
 def command_line(program: str, options: dict) -> list[str]:

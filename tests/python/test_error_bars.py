@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import OverSeeds, spread_accepted
+from workflow.pipeline.described import options_of_programs
 
 SEEDS, LEVEL = 50, 1e-3
 REPLICAS = 24
@@ -21,6 +22,14 @@ CASES: list[tuple[str, str, dict]] = [
     ("particle_count", "log_slope", {"cells": 4, "times": "1,2,4"}),
     ("particle_count", "front_exponent", {"cells": 11, "cell_length": "1/N", "times": "20,60,180"}),
 ]
+
+
+ELSEWHERE = {"conductivity", "energy_pulse"}  # test_open_chain.py, test_pulse_peak.py
+
+
+def test_every_program_has_a_case() -> None:
+    sampled = {name for name, options in options_of_programs().items() if "seed" in options}
+    assert {name for name, _, _ in CASES} == sampled - ELSEWHERE
 
 
 @pytest.mark.parametrize(("name", "quantity", "options"), CASES)

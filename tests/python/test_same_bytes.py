@@ -76,6 +76,10 @@ def assert_same_without_fma(run: Run, folder: Path) -> None:
     assert result_of(program, run.options, folder / "masked.h5", MASKED) == full
 
 
+def test_every_program_has_a_case() -> None:
+    assert {run.program for run in SMALL.values()} == {run.program for run in PAPER.values()} == {*PROGRAMS}
+
+
 @pytest.mark.parametrize("name", SMALL)
 def test_without_fused_multiply_add(name: str, tmp_path: Path) -> None:
     assert_same_without_fma(SMALL[name], tmp_path)

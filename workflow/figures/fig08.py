@@ -41,9 +41,8 @@ def mean_field(results: Sequence[Result]) -> pd.DataFrame:
     """kappa in mean field and its local exponents, one row per size, sorted by N."""
     rows = []
     for result in results:
-        cells, temperature = int(result.parameters["cells"]), result["temperature_scatterer"].mean
-        kappa = -float(result["energy_current"].mean) * cells / (temperature[-1] - temperature[0])
-        rows.append({"gamma": run_parameters.gamma(result), "cells": cells, "mean_field_kappa": kappa})
+        row = {"gamma": run_parameters.gamma(result), "cells": int(result.parameters["cells"])}
+        rows.append(row | {"mean_field_kappa": float(result["kappa"].mean)})
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     middle, slope, _ = local_exponents(table.cells, table.mean_field_kappa, 0 * table.cells)
     return table.assign(

@@ -61,8 +61,9 @@ std::string complaints;  // NOLINT(cppcoreguidelines-avoid-non-const-global-vari
 /// Runs a program of a study; returns its exit status.
 int run_program(Arguments arguments, const std::function<Study()>& make) {
   arguments.insert(arguments.begin(), "example");
-  if (std::ranges::find(arguments, "--progress") == arguments.end())
-    arguments.insert(arguments.end(), {"--progress", "none"});
+  for (const auto& [option, value] : {std::pair{"--progress", "none"}, std::pair{"--seed", "1"}})
+    if (std::ranges::find(arguments, option) == arguments.end())
+      arguments.insert(arguments.end(), {option, value});
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   StudyProgram program("example", "An example");
