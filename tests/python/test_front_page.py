@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
+from workflow.lib.caption import BATHS, PAPERS_BATHS
+from workflow.pipeline.described import options_of_programs
 
 with (ROOT / "docs/gallery/numbers.csv").open(newline="") as file:
     RELEASE = [*csv.DictReader(file)]
@@ -59,6 +61,19 @@ def test_marks_of_claims_are_the_verdicts_of_the_release() -> None:
     assert len(marks) > 20
     for mark, claim, intended in marks:
         assert verdicts[claim, intended.strip() or "literal"] == names[mark], claim
+
+
+def test_the_version_is_that_of_the_citation() -> None:
+    of_project, of_citation = (
+        re.search(r"^version(?: =|:) \"?([\d.]+)", (ROOT / name).read_text(), re.MULTILINE)
+        for name in ("pyproject.toml", "CITATION.cff")
+    )
+    assert of_project and of_citation and of_project[1] == of_citation[1]
+
+
+def test_the_papers_baths_are_the_defaults_of_the_programs() -> None:
+    options = options_of_programs()["conductivity"]
+    assert [options[name]["default"] for name in BATHS] == pytest.approx(PAPERS_BATHS)
 
 
 @pytest.mark.parametrize(

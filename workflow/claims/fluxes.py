@@ -10,7 +10,7 @@ from scipy.special import erf
 from workflow.claims.data import Data, by_size, combination, dof, estimate, power, ratio
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Quantity, Result
-from workflow.physics.fluxes import SIMULATION, at, deviations
+from workflow.physics.fluxes import SIMULATION, at, at_zero, deviations
 
 # Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
 REACH = 40
@@ -195,6 +195,6 @@ def _extrapolation_errors(kinetic: Result, flux: Quantity) -> Sequence[float]:
     for bond, _ in ENDS:
         bins, exact = (_behind(kinetic[name], bond, flux) for name in ("flux", "jump"))
         middle = len(bins) // 2
-        line = 1.5 * (bins[middle] - bins[middle - 1]) - 0.5 * (bins[middle + 1] - bins[middle - 2])
+        line = at_zero(bins[middle : middle + 2]) - at_zero(bins[middle - 1 : middle - 3 : -1])
         errors.append(float(abs(line - exact)))
     return errors

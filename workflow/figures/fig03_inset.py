@@ -16,7 +16,7 @@ from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, deviations
+from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, at_zero, deviations
 
 TITLE = "Deviation of finite chains from the kinetic equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
@@ -52,9 +52,7 @@ def at_centre(table: pd.DataFrame) -> pd.Series:
     centres = {}
     for cells, part in table[table.kind == MEAN_FIELD].groupby("cells"):
         inner = [part[np.sign(part.momentum) == side].sort_values("momentum", key=abs) for side in (-1, 1)]
-        centres[cells] = max(
-            abs(1.5 * half.deviation.iloc[0] - 0.5 * half.deviation.iloc[1]) for half in inner
-        )
+        centres[cells] = max(abs(at_zero(half.deviation.iloc[:2])) for half in inner)
     return pd.Series(centres, name="centre").rename_axis("cells")
 
 

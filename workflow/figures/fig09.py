@@ -35,8 +35,7 @@ def sound_speed(rest: Result) -> float:
     particles, length = float(options["particles-per-cell"]), float(options["cell-length"])
     before = 2 * float(options["energy"])  # temperature of the particles at the start
     (temperature,), (slow,) = quasi_stationary(particles, before, length, options["relaxation-time"])
-    mass = (1 + float(options["sigma"])) / (1 - float(options["sigma"]))
-    return Chain(particles / (2 * slow), mass, temperature, length).sound_speed_in_cells
+    return Chain(particles / (2 * slow), run_parameters.mass(rest), temperature, length).sound_speed_in_cells
 
 
 def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:

@@ -14,8 +14,8 @@ GAS = ["rule", "passing", "epsilon", "zeta", "mass"]  # columns that identify a 
 
 def chain(result: Result) -> Chain:
     """The gas of a ring."""
-    temperature, length, sigma = (result.parameters[name] for name in ("temperature", "cell-length", "sigma"))
-    return Chain(result.parameters["fugacity"] * length, (1 + sigma) / (1 - sigma), temperature, length)
+    temperature, length = (result.parameters[name] for name in ("temperature", "cell-length"))
+    return Chain(result.parameters["fugacity"] * length, run_parameters.mass(result), temperature, length)
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -19,6 +19,12 @@ def gamma(result: Result) -> str:
     return value if value == "N" else f"{value:g}"
 
 
+def mass(result: Result) -> float:
+    """M of a scatterer, from σ = (M - 1)/(M + 1)."""
+    sigma = float(result.parameters["sigma"])
+    return (1 + sigma) / (1 - sigma)
+
+
 def epsilon(result: Result) -> float:
     """Fraction of the collisions that reverse the momentum of the scatterer."""
     reversing = result.parameters["rule"] == REVERSAL

@@ -1,4 +1,4 @@
-"""The lock of the products."""
+"""Locks of the products and of the build of make verify."""
 
 import fcntl
 import os
@@ -6,15 +6,20 @@ from functools import cache
 from pathlib import Path
 
 
-@cache
 def lock_products() -> None:
-    """Keeps other commands from making or removing products until this process ends. Called again, it does nothing: the entry locks before it
+    """Keeps other commands from making or removing products until this process ends. Raises OSError."""
+    lock(Path("build"))
+
+
+@cache
+def lock(folder: Path) -> None:
+    """Keeps other commands from locking a folder until this process ends. Called again, it does nothing: the entry locks before it
     compiles; the Snakefile also locks, for direct calls of Snakemake. Raises OSError."""
-    Path("build").mkdir(exist_ok=True)
-    file = os.open("build/lock", os.O_RDWR | os.O_CREAT)
+    folder.mkdir(parents=True, exist_ok=True)
+    file = os.open(folder / "lock", os.O_RDWR | os.O_CREAT)
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
         raise BlockingIOError(
-            "Another command is making products in this folder: wait for it to finish, or stop it."
+            f"Another command is making products in {folder.absolute()}: wait for it to finish, or stop it."
         ) from error

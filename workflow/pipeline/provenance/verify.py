@@ -1,4 +1,4 @@
-"""Compares results with reruns by freshly compiled programs.
+"""Compares results with reruns by programs that are compiled afresh, once for each state of the sources.
 
 Exit status: 0 if all agree, 1 if not, 3 if there is nothing to rerun or a rerun failed.
 """
@@ -10,17 +10,20 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from workflow.lib.identity import identity
 from workflow.lib.load import FormatError
-from workflow.pipeline.lock import lock_products
+from workflow.pipeline.lock import lock
 from workflow.pipeline.plan import runs_of
 from workflow.pipeline.program import ProgramError, execute
 from workflow.pipeline.provenance.compare import compared
+from workflow.pipeline.sources import programs as all_programs
+from workflow.pipeline.sources import source_hash
 
-BUILD = Path("build/verify")
+BUILD = Path("build/verify")  # with a folder for each hash of the sources
 
 
 def main(options: argparse.Namespace) -> int:
-    """Reruns a sample of the results, or a panel's, with freshly compiled programs."""
+    """Reruns a sample of the results, or a panel's. Other commands may make products meanwhile."""
     runs = runs_of(options.plan, options.panels or options.plan, options.quality)
     made = [path for path in runs if Path(path).is_file()]
     if not options.panels:
@@ -28,18 +31,22 @@ def main(options: argparse.Namespace) -> int:
     if not made:
         print(f"Nothing to verify: run make figures {options.effort}")
         return 3
-    lock_products()
-    shutil.rmtree(BUILD, ignore_errors=True)
-    settings = os.environ | {"BUILD": str(BUILD)}
-    if subprocess.run(
-        ["bash", "workflow/pipeline/environment/build.sh", "all"], env=settings, check=False
-    ).returncode:
-        return 1
+    lock(BUILD)
+    programs = sorted({runs[path].program for path in made})
+    fresh = BUILD / identity([source_hash(program) for program in all_programs()])
+    for former in (folder for folder in BUILD.iterdir() if folder.is_dir() and folder != fresh):
+        shutil.rmtree(former)
+    missing = [program for program in programs if not (fresh / "bin" / program).exists()]
+    if missing:
+        print(f"Compiling {', '.join(missing)}", flush=True)
+        command = ["bash", "workflow/pipeline/environment/build.sh", *missing]
+        if subprocess.run(command, env=os.environ | {"BUILD": str(fresh)}, check=False).returncode:
+            return 1
     differing = failed = 0
     for number, path in enumerate(made, 1):
-        run, again = runs[path], BUILD / "again.h5"
+        run, again = runs[path], fresh / "again.h5"
         try:
-            execute(run.program, run.options, again, "--overwrite", programs=BUILD / "bin")
+            execute(run.program, run.options, again, "--overwrite", programs=fresh / "bin")
             p, text, _ = compared(path, again, rerun=True)
             differing += p == 0
         except (FormatError, ProgramError) as error:
