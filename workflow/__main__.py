@@ -1,7 +1,7 @@
 """The entry: python -m workflow TARGET NAME=value ...
 
-Make passes its options in MAKEFLAGS. Exit status: 0, 1 if something failed or does not hold, 2 for bad input, 3 if something could not be
-checked.
+Make passes its options in MAKEFLAGS. Exit status: 0, 1 if something failed or does not hold, 2 for bad input,
+3 if something could not be checked.
 """
 
 import argparse
@@ -71,7 +71,8 @@ class UsageError(ValueError):
 
 
 def words_of_make(flags: str) -> list[str]:
-    """Options NAME=value of the command line of make, from MAKEFLAGS, where a space in a value follows a backslash."""
+    """Options NAME=value of the command line of make, from MAKEFLAGS, where a space in a value follows a
+    backslash."""
     words = [word.replace("\\ ", " ") for word in re.findall(r"(?:\\.|[^ \\]|\\)+", flags)]
     return [word for word in words if re.match(r"[A-Za-z_]\w*=", word) and not word.startswith(OF_MAKE)]
 
@@ -98,8 +99,9 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 
 
 def prepare(target: str, options: argparse.Namespace) -> None:
-    """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`; compiles the programs if the
-    target needs them. Raises UsageError, ConfigurationError, BuildError, OSError."""
+    """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`;
+    compiles the programs if the target needs them. Raises UsageError, ConfigurationError, BuildError,
+    OSError."""
     efforts = [f"{name}={value}" for name in OVERRIDES if (value := getattr(options, name))]
     options.quality = "_".join([options.quality, *efforts])
     options.effort = Selection.parse(options.quality).arguments
@@ -150,8 +152,8 @@ def simulate(panels: list[str], options: argparse.Namespace) -> int:
 
 
 def make(target: str, options: argparse.Namespace) -> int:
-    """Makes what is missing: results, panels, report; with DRY=yes, lists it. After SEED and REPLICAS compares with the results of the
-    quality. Raises ConfigurationError, OSError."""
+    """Makes what is missing: results, panels, report; with DRY=yes, lists it. After SEED and REPLICAS
+    compares with the results of the quality. Raises ConfigurationError, OSError."""
     plan, quality, names = options.plan, options.quality, options.panels or [*options.plan]
     files = {name: _missing(files_of(plan, name, quality)) for name in names}
     results = _missing(runs_of(plan, names, quality))

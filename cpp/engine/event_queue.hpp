@@ -106,8 +106,8 @@ class EventQueue {
    private:
     friend class EventQueue;
 
-    /// The bits of the word in use are held apart from the bitmap, as a load of them from there would wait
-    /// for the last store to it.
+    /// word_bits_ is a copy of the current word of the bitmap: to load the word again would stall on the last
+    /// store to it.
     [[gnu::always_inline]] void link(std::uint32_t slot, std::uint64_t tick) {
       const std::uint64_t bucket = tick & bucket_mask_, bit = std::uint64_t{1} << (tick & 63);
       next_[slot] = std::exchange(buckets_[bucket], slot);

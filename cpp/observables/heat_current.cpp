@@ -5,7 +5,7 @@
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
-/// elsewhere A = 0, for gamma = N: passing changes the transport coefficients. The totals of a ring
+/// with A = 0 where momentum is not conserved. For gamma < N, A and D have other values. The totals of a ring
 /// fluctuate: at fixed totals <Q^2> would be smaller by a part of order t^2/N. Sound must not travel around
 /// the ring within the longest time. Without conserved momentum it decays, but after many collisions, unless
 /// the direction of a particle is drawn in each.

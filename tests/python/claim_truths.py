@@ -1,6 +1,7 @@
 """Exact results for the function of every claim, called worlds, with the numbers that it must take from them.
 
-Runs, elements and quantities that could be confused have different values, so that a number from a wrong one is noticed."""
+Runs, elements and quantities that could be confused have different values, so that a number from a wrong
+one is noticed."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -16,14 +17,16 @@ COLD, HOT = 900 / 11, 1100 / 9  # temperatures of the baths
 # Exact results: by panel, the true values of the quantities on which the function depends.
 World = Mapping[str, Truth]
 
-# Expected numbers of a claim: values, or pairs of value and systematic error. Without a pair the systematic error is 0.
+# Expected numbers of a claim: values, or pairs of value and systematic error. Without a pair the systematic
+# error is 0.
 Answer = Sequence[float | tuple[float, float]]
 EXACT = 1e-9  # relative standard error of denominators, whose errors the claims neglect
 
 
 @dataclass(frozen=True)
 class Case:
-    """A world with the numbers that a function must find. errors: relative standard errors by quantity; "*": all others."""
+    """A world with the numbers that a function must find. errors: relative standard errors by quantity;
+    "*": all others."""
 
     world: World
     numbers: Answer
@@ -133,7 +136,8 @@ claim(
                                               0.06 * factor, 0.07 * factor, 0.02 * factor, 0.015 * factor)],
 )  # fmt: skip
 
-# Solutions of the kinetic equation have a discretisation error, here ERROR relative to the value, and no standard error.
+# Solutions of the kinetic equation have a discretisation error, here ERROR relative to the value, and no
+# standard error.
 halves = {"kurtosis": lambda run, _, half: 3 + (0.1 if run.name == "paper" else 9) * half * (1 + (half > 0))}
 departures = [(d, ERROR * (3 + s * d)) for d, s in ((0.1, -1), (0.2, 1))]
 kinetic = {
@@ -177,8 +181,8 @@ claim("fluxes.deviations_over_bounds", {"fig03_inset": {"flux": finite}}, found)
 
 
 def at_centre(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """F_N whose deviation at N = 2 is -0.4 and -0.6 in the innermost bins and 0.5 (1 + p/1000) beyond. Other sizes and halves have the
-    deviation 3, which no number may contain."""
+    """F_N whose deviation at N = 2 is -0.4 and -0.6 in the innermost bins and 0.5 (1 + p/1000) beyond.
+    Other sizes and halves have the deviation 3, which no number may contain."""
     if run.options["cells"] == "continuum":
         return HEIGHT + 0 * p
     outgoing = np.where(place == 0, p < 0, p > 0) & (run.options["cells"] == 2)
@@ -237,7 +241,8 @@ claim(
 
 
 def curved(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """F with a curvature at p > 0. At p = 0 the line through the bins at 0.6 and 1.8 is wrong by 3 x 0.6^2 times the coefficient of p^2."""
+    """F with a curvature at p > 0. At p = 0 the line through the bins at 0.6 and 1.8 is wrong by 3 x 0.6^2
+    times the coefficient of p^2."""
     return np.where(p > 0, 10 + 0.05 * p**2, 8 + 0.1 * p) * (
         run.name in ("equal", "mean-field-equal")
     ) + 12 * (abs(p) > 50)

@@ -1,4 +1,5 @@
-"""Exact results as in claim_truths.py, for the claims on closed chains, conductivity against size, and pulses."""
+"""Exact results as in claim_truths.py, for the claims on closed chains, conductivity against size, and
+pulses."""
 
 import math
 from collections.abc import Callable
@@ -16,7 +17,8 @@ def law(run: Run) -> float:
 
 
 def pulse(panel: str, **given: Any) -> World:
-    """Pulse of a panel in a ring that has not closed, with the given quantities and defaults for all others."""
+    """Pulse of a panel in a ring that has not closed, with the given quantities and defaults for all
+    others."""
     shape = {
         "peak": 1,
         "peak_raw": 1,
@@ -74,9 +76,10 @@ found = [-4.8 - 0.1 * sigma for sigma in sigmas] + [-4.4 - 0.1 * sigma for sigma
 claim("closed.momentum_changes", drift, found)
 
 
-# Conductivity. At gamma = 1 kappa is N, but smaller by a factor of e^-0.002 at 128, the first of the five sizes within a factor of 16 of
-# the largest. The sizes are equally spaced in ln N, so this changes the slope by 0.002/5 over the spacing. At gamma = N kappa is sqrt(N) up
-# to 256 and N^0.2 beyond. The runs at N = 32 are not stationary.
+# Conductivity. At gamma = 1 kappa is N, but smaller by a factor of e^-0.002 at 128, the first of the five
+# sizes within a factor of 16 of the largest. The sizes are equally spaced in ln N, so this changes the slope
+# by 0.002/5 over the spacing. At gamma = N kappa is sqrt(N) up to 256 and N^0.2 beyond. The runs at N = 32
+# are not stationary.
 def kappa(run: Run) -> float:
     size = run.options["cells"]
     if size == 32 or (size < 128 and rare(run)):
@@ -95,7 +98,8 @@ rare_exponent = (1 + 4e-4 / math.log(2), 4e-4 / math.log(2))
 claim("growth.linear", {"fig08": both}, [rare_exponent])
 claim("growth.cube_root", {"fig08": both}, [0.5, 0.2])
 
-# The exponent over the last octave of a ring; over octaves before it is smaller. ⟨Q²⟩ has this exponent from t = 64 on.
+# The exponent over the last octave of a ring; over octaves before it is smaller. ⟨Q²⟩ has this exponent from
+# t = 64 on.
 last_octaves = {"light-longest": 1.31, "dense-longest": 1.32, "dilute-longest": 1.34, "sparse-longest": 1.35}
 
 
@@ -117,8 +121,9 @@ rings = {"momentum": {"local_exponent": octaves, "heat_variance": passed}}
 claim("growth.superdiffusive", rings, [1.31, 1.32, 1.34, 1.35])
 
 
-# Where momentum is reversed with the probability ε, κ is N^ε between the sizes 32 and 128, and larger elsewhere; where particles pass, N^0.42.
-# Reversed chains are not stationary at N = 64, and have a larger size than the others.
+# Where momentum is reversed with the probability ε, κ is N^ε between the sizes 32 and 128, and larger
+# elsewhere; where particles pass, N^0.42. Reversed chains are not stationary at N = 64, and have a larger
+# size than the others.
 def disturbed(run: Run) -> float:
     size = run.options["cells"]
     exponent = run.options.get("reversal-probability", 0.42 if passing(run) else 0.5)
@@ -133,8 +138,9 @@ chains = {"kappa": disturbed, "stationary": undisturbed}
 claim("growth.without_momentum", {"momentum": rings["momentum"] | chains}, [0.32, 0.34])
 
 
-# At the k-th time the peak is at 5.2 + 3k cells and 100 + 10k high; there is none at the first and at the last time. The odd part per cell
-# is 0.001 of the height. Speeds fall as t^-0.1; they are NaN at the first time and twice as large at the third. Other starts differ.
+# At the k-th time the peak is at 5.2 + 3k cells and 100 + 10k high; there is none at the first and at the
+# last time. The odd part per cell is 0.001 of the height. Speeds fall as t^-0.1; they are NaN at the first
+# time and twice as large at the third. Other starts differ.
 def place(_run: Run, t: np.ndarray) -> np.ndarray:
     k = np.arange(len(t))
     return np.where((k == 0) | (k == len(t) - 1), np.nan, 5.2 + 3 * k)
@@ -156,7 +162,8 @@ found = [*(10 * value for value in left), -0.4]
 claim("pulse.peaks_leave", leaving, found, peak=EXACT, peak_position=EXACT)
 
 
-# The peak moves ballistically except at the last time, at which it is e^d times farther. Without that time the exponent is 1.
+# The peak moves ballistically except at the last time, at which it is e^d times farther. Without that time
+# the exponent is 1.
 def farther(d: float) -> Callable[..., np.ndarray]:
     return lambda run, t: (
         300 * t ** (3 if (run.name, d) == ("gaussian", 0.02) else 1) * np.where(t == t.max(), math.exp(d), 1)
@@ -174,7 +181,8 @@ later_peaks = pulse("fig10b", peak_position=farther(0.05))
 claim("pulse.ballistic_later", later_peaks, [ballistic(0.05, 0.02, 0.04, 0.16)])
 
 
-# Damping exponents. Each fit that begins one time later gives an exponent that is 0.01 larger. That of the other start differs.
+# Damping exponents. Each fit that begins one time later gives an exponent that is 0.01 larger. That of the
+# other start differs.
 def later(exponent: float) -> Callable[..., np.ndarray]:
     return lambda run, _: exponent + 0.01 * np.arange(len(str(run.options["times"]).split(",")) - 1)
 
@@ -193,7 +201,8 @@ def damped(panel: str, rest: float, **others: Any) -> World:
 claim("pulse.damping", damped("fig09a", 0.64), [(0.64, 0.04 + 0.02)])
 claim("pulse.damping_rare", damped("fig09b", 1.5), [(1.5, 0.02)])
 
-# 2 - 1/xi with xi = 0.66 and 0.9, and the exponents of kappa over the largest sizes; at gamma = N kappa is an exact power.
+# 2 - 1/xi with xi = 0.66 and 0.9, and the exponents of kappa over the largest sizes; at gamma = N kappa is an
+# exact power.
 kappa_n = {
     "kappa": lambda run: (
         kappa(run) if rare(run) else run.options["cells"] ** (0.2 if run.options["cells"] > 100 else 3)

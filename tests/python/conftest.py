@@ -48,7 +48,8 @@ def small(program: str) -> dict[str, object]:
 
 
 def command_line(program: str, options: dict) -> list[str]:
-    """Command of a program with small options, changed by `options`. True gives a flag; None omits an option."""
+    """Command of a program with small options, changed by `options`. True gives a flag; None omits an
+    option."""
     words = [str(ROOT / "build/bin" / program)]
     for name, value in {**small(program), **options}.items():
         if value is True:
@@ -59,7 +60,8 @@ def command_line(program: str, options: dict) -> list[str]:
 
 
 def simulate(simulator: str, **options: object) -> np.ndarray:
-    """Table printed by a reference simulator of tests/cpp/reference, as numbers. Raises CalledProcessError."""
+    """Table printed by a reference simulator of tests/cpp/reference, as numbers. Raises
+    CalledProcessError."""
     dashed = {name.replace("_", "-"): value for name, value in options.items()}
     command = [str(ROOT / "build/bin/reference_simulator"), simulator, *arguments(dashed)]
     printed = subprocess.check_output(command, text=True)
@@ -67,14 +69,16 @@ def simulate(simulator: str, **options: object) -> np.ndarray:
 
 
 def agree(*scores: np.ndarray) -> bool:
-    """Whether the largest score is below the bound for as many independent normal ones. Correlations only make it smaller."""
+    """Whether the largest score is below the bound for as many independent normal ones. Correlations only
+    make it smaller."""
     every = np.concatenate([np.ravel(each) for each in scores])
     return bool(np.abs(every).max() < norm.isf(1e-4 / 2 / every.size))
 
 
 def spread_accepted(values: np.ndarray, errors: np.ndarray, replicas: int, level: float) -> bool:
-    """Chi-square of values [seed] about their weighted mean at a two-sided level. Errors estimated from R replicas make the sum of squared
-    Student variables: each has mean (R-1)/(R-3), not 1, which the bounds allow for."""
+    """Chi-square of values [seed] about their weighted mean at a two-sided level. Errors estimated from R
+    replicas make the sum of squared Student variables: each has mean (R-1)/(R-3), not 1, which the bounds
+    allow for."""
     weights = errors**-2
     statistic = np.sum(weights * (values - np.average(values, weights=weights)) ** 2)
     low, high = chi2.ppf([level / 2, 1 - level / 2], len(values) - 1)
@@ -83,7 +87,8 @@ def spread_accepted(values: np.ndarray, errors: np.ndarray, replicas: int, level
 
 @pytest.fixture
 def program(tmp_path: Path) -> Program:
-    """Function that runs a program in an empty folder. Options are keywords with underscores instead of dashes."""
+    """Function that runs a program in an empty folder. Options are keywords with underscores instead of
+    dashes."""
 
     def run(name: str, **options: object) -> subprocess.CompletedProcess:
         named = {key.replace("_", "-"): value for key, value in options.items()}
@@ -102,8 +107,9 @@ def program(tmp_path: Path) -> Program:
 
 @pytest.fixture
 def over_seeds(program: Program, tmp_path: Path) -> OverSeeds:
-    """Function that runs a program once with each of a number of seeds. Returns means and standard errors of each named quantity as
-    arrays [seed, ...]. It reads nothing else, as loading a whole result takes as long as a small run."""
+    """Function that runs a program once with each of a number of seeds. Returns means and standard errors
+    of each named quantity as arrays [seed, ...]. It reads nothing else, as loading a whole result takes as
+    long as a small run."""
 
     def run(name: str, seeds: int, *quantities: str, **options: object) -> dict[str, np.ndarray]:
         found: dict[str, list] = {quantity: [] for quantity in quantities}

@@ -35,7 +35,8 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
 
 
 class Known(Data):
-    """Data in which every run of some panels has the result that the function of its panel returns; other panels have no results."""
+    """Data in which every run of some panels has the result that the function of its panel returns; other
+    panels have no results."""
 
     def __init__(self, fills: Mapping[str, Fill], quality: str = "paper") -> None:
         self.quality, self.root, self.fills = quality, ROOT, fills
@@ -76,9 +77,9 @@ def axes(run: Run) -> dict[str, np.ndarray]:
 
 
 def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
-    """Function that returns the results of a run with given true values: with a standard error, or with a discretisation error if the run
-    is not replicated. It is relative to the value, or absolute where the value is 0; a mapping gives it by quantity, with "*" for all
-    others."""
+    """Function that returns the results of a run with given true values: with a standard error, or with a
+    discretisation error if the run is not replicated. It is relative to the value, or absolute where the
+    value is 0; a mapping gives it by quantity, with "*" for all others."""
     relative = relative if isinstance(relative, Mapping) else {"*": relative}
 
     def fill(run: Run) -> dict[str, Quantity]:
@@ -99,7 +100,8 @@ def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
 
 
 def drawn(known: Known, random: np.random.Generator) -> Known:
-    """Data with noise in the results that are loaded: normal means, and errors that are estimated from the number of replicas."""
+    """Data with noise in the results that are loaded: normal means, and errors that are estimated from the
+    number of replicas."""
 
     def noisy(result: Result) -> Result:
         quantities = dict(result.quantities)

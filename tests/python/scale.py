@@ -62,7 +62,8 @@ class Scale:
         return replace(result, quantities=quantities, parameters=options)
 
 
-# Units length^L time^T differ by the factor 2^(L + 5T), which has another value for all units that could be confused.
+# Units length^L time^T differ by the factor 2^(L + 5T), which has another value for all units that could be
+# confused.
 OTHER = Scale(momenta=1 / 16, lengths=2)
 
 

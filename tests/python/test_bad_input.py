@@ -1,5 +1,5 @@
-"""Bad input: exit status 2, no file, and one line that names the option. tests/cpp/program/options_test.cpp has values that are
-not allowed by themselves."""
+"""Bad input: exit status 2, no file, and one line that names the option.
+tests/cpp/program/options_test.cpp has values that are not allowed by themselves."""
 
 from pathlib import Path
 

@@ -1,4 +1,5 @@
-"""The program that solves the kinetic equation: axes, consistency of its quantities, coverage of its errors."""
+"""The program that solves the kinetic equation: axes, consistency of its quantities, coverage of its
+errors."""
 
 from functools import partial
 from pathlib import Path

@@ -1,7 +1,8 @@
-"""Closed chains against the reference simulator, which shares no code and no random numbers with the programs.
+"""Closed chains against the reference simulator, which shares no code and no random numbers with the
+programs.
 
-That no two replicas or seeds share a draw is tested in tests/cpp/engine/chance_test.cpp. Draws common to all of them shift
-every result alike, and only this comparison finds them.
+That no two replicas or seeds share a draw is tested in tests/cpp/engine/chance_test.cpp. Draws common to all
+of them shift every result alike, and only this comparison finds them.
 """
 
 from dataclasses import asdict, dataclass, replace

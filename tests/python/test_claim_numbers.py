@@ -1,8 +1,9 @@
 """The numbers of the claims, calculated from results with known true values (claim_truths*.py).
 
-Exact results give the known numbers and systematic errors. Noisy results, drawn TRIALS times with the standard errors that they
-state, give numbers that scatter about them as their own errors predict: chi-square over the trials and their mean, both at the
-p-value LEVEL. An error that is wrong by a factor of two is found in all numbers.
+Exact results give the known numbers and systematic errors. Noisy results, drawn TRIALS times with the
+standard errors that they state, give numbers that scatter about them as their own errors predict: chi-square
+over the trials and their mean, both at the p-value LEVEL. An error that is wrong by a factor of two is found
+in all numbers.
 """
 
 import copy
@@ -22,7 +23,8 @@ from workflow.lib.load import Quantity
 
 TRIALS, LEVEL = 100, 1e-5
 COMPUTED = "fluxes.jump_and_halves"  # without statistical error
-# Numbers whose errors are upper bounds: part of the label, and largest factor by which the error may be too large.
+# Numbers whose errors are upper bounds: part of the label, and largest factor by which the error may be too
+# large.
 BOUNDS = {"Kolmogorov's distance": 1.5, "1 - |deviation at p": 1.1}
 
 
@@ -50,8 +52,8 @@ def test_exact_results_give_the_known_numbers(name: str) -> None:
 
 
 def outside(z: np.ndarray, dof: np.ndarray, widest: np.ndarray) -> np.ndarray:
-    """Whether the scores [trial, number] contradict Student's t with these degrees of dof, by their variance or by their mean.
-    widest: largest factor by which an error may be too large."""
+    """Whether the scores [trial, number] contradict Student's t with these degrees of freedom, by their
+    variance or by their mean. widest: largest factor by which an error may be too large."""
     trials, total, stretch = len(z), np.sum(z**2, axis=0), dof / (dof - 2)
     low, high = chi2.ppf(LEVEL, trials) / widest**2, chi2.isf(LEVEL, trials) * stretch
     return (

@@ -16,7 +16,8 @@ ROWS = judge.read_claims(ROOT)
 
 
 def test_every_statement_has_a_row() -> None:
-    """Intended meanings come after the literal statement. A number is given once, also after a statement is gone."""
+    """Intended meanings come after the literal statement. A number is given once, also after a statement
+    is gone."""
     numbers = [number for row in ROWS if row["kind"] == "literal" for number in row["numbers"].split()]
     assert len({*numbers}) == len(numbers)
     literal = [row["numbers"] for row in ROWS if row["kind"] == "literal"]

@@ -25,9 +25,10 @@ def score(quantity: Quantity, expected: float | np.ndarray) -> float:
 def test_currents_of_independent_walkers(
     measure: Measure, walker: tuple[dict[str, object], float], cells: int, gamma: float | str
 ) -> None:
-    """Scatterers without mass keep the speed of a particle; those of equal mass keep a momentum until the next collision. So momenta
-    walk: a scatterer reflects with the probability r = q/2, or q times that of the reversal, and a row of N transmits 1/(1 + N r/(1 - r)).
-    Slow particles, which are still inside, carry little energy. Detected mistake: the chain has three more scatterers."""
+    """Scatterers without mass keep the speed of a particle; those of equal mass keep a momentum until the
+    next collision. So momenta walk: a scatterer reflects with the probability r = q/2, or q times that of
+    the reversal, and a row of N transmits 1/(1 + N r/(1 - r)). Slow particles, which are still inside,
+    carry little energy. Detected mistake: the chain has three more scatterers."""
     rule, reflection = walker
     chain = {"cells": cells, "gamma": gamma, "relaxation_time": 50, "observation_time": 400}
     result = measure("conductivity", **chain, **UNEQUAL, **rule, replicas=200)
@@ -57,8 +58,8 @@ def test_without_reversal_the_rule_is_elastic(measure: Measure, name: str, quant
 
 @pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N")])
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
-    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures
-    that are 2 % too high."""
+    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8].
+    Detected mistake: temperatures that are 2 % too high."""
     times = {"relaxation_time": 20, "observation_time": 100}
     result = measure("steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **rule, replicas=64)
     for name in ("temperature_scatterer", "temperature_particle"):

@@ -1,5 +1,5 @@
-"""Conductivities that are not defined: the reason and the remedy are in the last lines. Windows that are not stationary are in
-test_measure.py."""
+"""Conductivities that are not defined: the reason and the remedy are in the last lines. Windows that are
+not stationary are in test_measure.py."""
 
 from pathlib import Path
 
@@ -12,7 +12,8 @@ from workflow.lib.load import load
 
 @pytest.mark.parametrize(("gamma", "needed"), [("N", 18), (1, 24)])
 def test_control_variates_need_replicas(program: Program, tmp_path: Path, gamma: object, needed: int) -> None:
-    """max(3k, k + 8) for the six of the injections, and two of the end scatterers if not every particle is scattered."""
+    """max(3k, k + 8) for the six of the injections, and two of the end scatterers if not every particle is
+    scattered."""
     for replicas in (needed - 1, needed):
         done = program("conductivity", gamma=gamma, replicas=replicas, progress="log")
         used = load(tmp_path / "out.h5")["energy_current"].control_variates

@@ -1,4 +1,5 @@
-"""Mistakes in the configuration are reported in one line each, with file, line, column, key, problem and remedy."""
+"""Mistakes in the configuration are reported in one line each, with file, line, column, key, problem and
+remedy."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,5 @@
-"""Elementary functions of the C library depend on the processor: programs and GSL use those of cpp/numerics/elementary.cpp instead."""
+"""Elementary functions of the C library depend on the processor: programs and GSL use those of
+cpp/numerics/elementary.cpp instead."""
 
 import os
 import re

@@ -1,5 +1,6 @@
-"""The standard error equals the standard deviation of results from independent seeds. The currents of open chains and the peak of a
-pulse are tested with their other properties in test_open_chain.py and test_pulse_peak.py."""
+"""The standard error equals the standard deviation of results from independent seeds. The currents of open
+chains and the peak of a pulse are tested with their other properties in test_open_chain.py and
+test_pulse_peak.py."""
 
 import numpy as np
 import pytest
@@ -34,8 +35,8 @@ def test_every_program_has_a_case() -> None:
 
 @pytest.mark.parametrize(("name", "quantity", "options"), CASES)
 def test_standard_error_over_seeds(over_seeds: OverSeeds, name: str, quantity: str, options: dict) -> None:
-    """Of an array the last element is tested. Detected mistakes: the standard deviation of one replica instead of the mean; errors
-    that are wrong by a factor of two."""
+    """Of an array the last element is tested. Detected mistakes: the standard deviation of one replica
+    instead of the mean; errors that are wrong by a factor of two."""
     estimates = over_seeds(name, SEEDS, quantity, replicas=REPLICAS, **options)[quantity]
     values, errors = estimates.reshape(2, SEEDS, -1)[:, :, -1]
     assert spread_accepted(values, errors, REPLICAS, LEVEL)

@@ -1,4 +1,5 @@
-"""Programs at the limits of their options: masses next to the extreme ones, other units, the smallest and the largest chains."""
+"""Programs at the limits of their options: masses next to the extreme ones, other units, the smallest and
+the largest chains."""
 
 import pytest
 
@@ -27,8 +28,8 @@ def in_units(measure: Measure, name: str, sigma: float, k: int) -> Result:
 def test_velocities_are_a_matter_of_units(
     measure: Measure, name: str, units: dict[str, float], sigma: float
 ) -> None:
-    """A power of two as the unit of velocity leaves results bitwise unchanged, also far from 1. Errors are sums of squares, which are
-    accumulated as roots and rounded once more."""
+    """A power of two as the unit of velocity leaves results bitwise unchanged, also far from 1. Errors are
+    sums of squares, which are accumulated as roots and rounded once more."""
     plain = in_units(measure, name, sigma, 0)
     for k in (-30, 30):
         other = in_units(measure, name, sigma, k)

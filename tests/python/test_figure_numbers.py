@@ -1,6 +1,8 @@
-"""Numbers of the figures: draw() gets results of known laws, and table and plotted data have the numbers that follow from them.
+"""Numbers of the figures: draw() gets results of known laws, and table and plotted data have the numbers that
+follow from them.
 
-Errors are distinct for every value, so that an error in place of a value, a wrong column, a swapped series or a wrong factor is seen.
+Errors are distinct for every value, so that an error in place of a value, a wrong column, a swapped series or
+a wrong factor is seen.
 """
 
 import importlib
@@ -192,7 +194,8 @@ def test_fig02_lower() -> None:
 
 
 def test_fig03() -> None:
-    """Halves of a Gaussian, one of them with a bump: the ratio has the rate and the second moment of the flux itself."""
+    """Halves of a Gaussian, one of them with a bump: the ratio has the rate and the second moment of the
+    flux itself."""
     p = np.arange(-40, 40, 0.5) + 0.25
     bump = 1 + 0.2 * np.exp(-((p - 15) ** 2) / 20)
     flux = np.stack([9 * np.exp(-(p**2) / 200) * np.where(p < 0, 2, 1) * part for part in (1, bump)])
@@ -404,7 +407,8 @@ def test_fig07_inset() -> None:
 
 
 def test_fig08() -> None:
-    """κ = 2 N^0.4 and 3 N in chains, and 7 N^0.2 in mean field, which it has from the current and the temperatures of the ends."""
+    """κ = 2 N^0.4 and 3 N in chains, and 7 N^0.2 in mean field, which it has from the current and the
+    temperatures of the ends."""
     sizes = np.array([4, 8, 16, 32])
     runs = [
         result(f"{series}_cells={n}", CHAIN | {"cells": int(n), "gamma": gamma}, "conductivity", kappa=kappa(n), energy_current=-1.0 * n,
@@ -439,7 +443,8 @@ PULSE = RING | {"energy": 5000.0, "pulse-energy": 5e4, "scatterer-temperature": 
 
 
 def pulses() -> list[Result]:
-    """Peaks of height 9000/t and 4000/t², at 5 + 300 t and 5 + 200 t, in octaves of the exponents 0.6 and 0.8."""
+    """Peaks of height 9000/t and 4000/t², at 5 + 300 t and 5 + 200 t, in octaves of the exponents 0.6 and
+    0.8."""
     time, cells = np.array([0.01, 0.02, 0.04]), np.arange(11)
     middle = np.sqrt(time[1:] * time[:-1])
     return [

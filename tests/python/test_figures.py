@@ -51,8 +51,8 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
 
 
 def test_doubts_about_the_results_of_other_panels(tmp_path: Path) -> None:
-    """Two replicas are too few to test whether the chain is stationary. Detected mistakes: only results of the panel itself are named in
-    its caption; only those that failed the test."""
+    """Two replicas are too few to test whether the chain is stationary. Detected mistakes: only results of
+    the panel itself are named in its caption; only those that failed the test."""
     paths = [tmp_path / "other/deterministic.h5", tmp_path / "panel/rare.h5"]
     for path in paths:
         path.parent.mkdir()

@@ -10,7 +10,8 @@ SIZE = np.array([4, 8, 16, 64, 256])
 
 
 def test_error_and_goodness_over_samples() -> None:
-    """With unequal errors, the pulls of the exponent are standard normal and chi^2 is chi-square distributed."""
+    """With unequal errors, the pulls of the exponent are standard normal and chi^2 is chi-square
+    distributed."""
     generator = np.random.default_rng(1)
     exact, relative = 3 * SIZE**0.4, np.array([0.01, 0.02, 0.01, 0.03, 0.02])
     pulls, chi_squares = [], []

@@ -1,4 +1,5 @@
-"""Result files of every program: the described quantities with their units and axes, and the same bytes for any number of threads."""
+"""Result files of every program: the described quantities with their units and axes, and the same bytes
+for any number of threads."""
 
 from pathlib import Path
 

@@ -15,8 +15,8 @@ with (ROOT / "docs/gallery/numbers.csv").open(newline="") as file:
 
 
 def test_front_page_has_the_numbers_of_the_release() -> None:
-    """A number with its errors in brackets, as 0.299(8)(52), is one of the report, rounded. Detected mistake: a systematic error that is not
-    negligible is missing."""
+    """A number with its errors in brackets, as 0.299(8)(52), is one of the report, rounded. Detected
+    mistake: a systematic error that is not negligible is missing."""
     text = (ROOT / "README.md").read_text().replace("−", "-")
     found = re.findall(r"(-?\d+\.(\d+))\((\d+)\)(?:\((\d+)\))?", text)
     assert found
@@ -68,7 +68,9 @@ def test_the_version_is_that_of_the_citation() -> None:
         re.search(r"^version(?: =|:) \"?([\d.]+)", (ROOT / name).read_text(), re.MULTILINE)
         for name in ("pyproject.toml", "CITATION.cff")
     )
-    assert of_project and of_citation and of_project[1] == of_citation[1]
+    assert of_project
+    assert of_citation
+    assert of_project[1] == of_citation[1]
 
 
 def test_the_papers_baths_are_the_defaults_of_the_programs() -> None:

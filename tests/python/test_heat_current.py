@@ -1,5 +1,5 @@
-"""Integrated heat current in equilibrium against exact results: short times, and a gas in which every collision draws the direction and
-keeps the speed."""
+"""Integrated heat current in equilibrium against exact results: short times, and a gas in which every
+collision draws the direction and keeps the speed."""
 
 from functools import partial
 
@@ -47,8 +47,9 @@ def test_short_times_have_the_variance_of_the_current(heat_current: Measure) -> 
 
 
 def of_walkers(time: float, scattered: float) -> float:
-    """<Q²> per cell of independent walkers that every scatterer scatters with this probability,
-    which draws the direction. The correlation of a velocity is u² times the probability that no scattering took place yet."""
+    """<Q²> per cell of independent walkers that every scatterer scatters with this probability, which
+    draws the direction. The correlation of a velocity is u² times the probability that no scattering took
+    place yet."""
     ages = np.linspace(0, time, 4001)
 
     def of_speed(u: float) -> float:
@@ -95,7 +96,8 @@ def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:
 
 
 def test_sound_must_not_come_around(program: Program) -> None:
-    """The ring must be longer than twice the distance of a peak plus twice its root-mean-square width [eq. 57]."""
+    """The ring must be longer than twice the distance of a peak plus twice its root-mean-square width [eq.
+    57]."""
     chain, time = Chain(zeta=1.6, mass=3), 20.0
     reach = chain.sound_speed * time + np.sqrt(0.510523) * (chain.self_coupling * time) ** (2 / 3)
     ring = {"fugacity": 1.6, "sigma": 0.5, "temperature": 1, "times": "10,20", "fit_from": 10,

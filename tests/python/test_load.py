@@ -1,5 +1,5 @@
-"""The loader takes the order of the dimensions from the dimension scales, gives the units of all values, and refuses what is damaged,
-edited or exchanged."""
+"""The loader takes the order of the dimensions from the dimension scales, gives the units of all values,
+and refuses what is damaged, edited or exchanged."""
 
 from collections.abc import Callable
 from pathlib import Path

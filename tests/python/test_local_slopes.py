@@ -1,4 +1,5 @@
-"""Numbers that panels derive from results, for known laws: local slopes, extrapolations and the quasi-stationary estimate."""
+"""Numbers that panels derive from results, for known laws: local slopes, extrapolations and the
+quasi-stationary estimate."""
 
 import numpy as np
 import pandas as pd
@@ -87,7 +88,8 @@ def test_the_caption_states_a_change_of_speed_if_it_is_significant(speeds: list[
 
 
 def test_the_excess_of_waiting_times_is_that_of_the_tail() -> None:
-    """Detected mistakes: bins before the tail or with large errors count; the excess of an infinite number of particles is wrong."""
+    """Detected mistakes: bins before the tail or with large errors count; the excess of an infinite number
+    of particles is wrong."""
     options = {"tail-from": 20.0, "cell-length": 1.0, "temperature": 400.0, "particles-per-cell": 20}
     table = pd.DataFrame({"tau": [0.5, 2.0, 3.0, 4.0], "gaussian_start": [8.0, 4.0, 2.0, 1.0]})
     table = table.assign(density=table.gaussian_start * [3, 1.08, 1.08, 5], density_error=0.04, unsure=False)

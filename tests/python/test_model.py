@@ -10,7 +10,8 @@ from workflow.figures.model import CELLS, SIGMA, TIME, flights
 
 
 def violations(table: pd.DataFrame, ring: bool, sigma: float = SIGMA) -> set[str]:
-    """What the flights violate. The momentum of a scatterer follows from the first collision and is compared from the second one on."""
+    """What the flights violate. The momentum of a scatterer follows from the first collision and is
+    compared from the second one on."""
     violated = set()
     moved = table.momentum * (table.end_time - table.start_time)
     if not np.allclose(table.end_position - table.start_position, moved, rtol=0, atol=1e-9):

@@ -33,8 +33,8 @@ FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1
 
 
 def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
-    """Over seeds the corrected estimate and the plain one, of too few replicas for a correction, agree, also if scatterers move at the start.
-    The corrected one has the smaller error."""
+    """Over seeds the corrected estimate and the plain one, of too few replicas for a correction, agree,
+    also if scatterers move at the start. The corrected one has the smaller error."""
     moving = {"sigma": 0.8, "scatterer_temperature": 500}
     (reduced, error), (plain, plain_error) = (
         over_seeds("displacement", seeds, "variance", **FEW, **moving, replicas=replicas)["variance"][
@@ -48,7 +48,8 @@ def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
         return float(abs(factor * reduced.mean() - plain.mean()) / of_mean)
 
     assert difference(1) < 4
-    # Detected mistake: the known mean square is that of the particles' momentum alone, 20 / (20 + 4 x 9) of the total.
+    # Detected mistake: the known mean square is that of the particles' momentum alone, 20 / (20 + 4 x 9) of
+    # the total.
     assert difference(20 / 56) > 10
     assert 8 * np.mean(plain_error**2) > 8 * 40 * np.mean(error**2)
 
@@ -85,7 +86,7 @@ def test_a_pulse_has_no_peak_once_it_has_gone_around_the_ring(measure: Measure) 
 def test_pulse(measure: Measure) -> None:
     ring = {"cells": 31, "particles_per_cell": 50, "relaxation_time": 0, "times": "0.001,0.01,0.02"}
     result = measure("energy_pulse", replicas=32, pairs_per_replica=4, **ring)
-    # The mean energy of 51 degrees of dof rises from 5000 to 50000 each, and the sum is conserved.
+    # The mean energy of 51 degrees of freedom rises from 5000 to 50000 each, and the sum is conserved.
     assert abs(score(result["injected_energy"], 51 * 45000)) < 4
     assert abs(score(result["injected_energy"], 50 * 45000)) > 4
     assert result["sum_error"].mean < 1e-13

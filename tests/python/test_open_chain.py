@@ -51,7 +51,8 @@ def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: st
     for name in ("temperature_scatterer", "temperature_particle", "density", "rate_right", "rate_left",
                  "particle_current", "energy_current"):  # fmt: skip
         assert agree(scores(profile[name], expected[name])), name
-    # Detected mistake: an opening has the current of particles that enter, which the controls determine, minus that of those that leave.
+    # Detected mistake: an opening has the current of particles that enter, which the controls determine,
+    # minus that of those that leave.
     errors = profile["energy_current"].error
     assert cells == 1 or errors[[0, -1]].max() < 1.5 * errors[1:-1].max()
     density = profile["scatterer_density"]
@@ -103,8 +104,9 @@ def test_number_of_particles_against_the_reference_simulator(measure: Measure) -
 
 
 def test_front_of_free_flight(measure: Measure) -> None:
-    """Without scattering [eq. 24] is exact in a chain of one cell, which is a path long. Detected mistakes: without the particles below
-    the bins p_0 is a tenth larger at the last time; where |p| n(p) is half of the plateau is e/2 p_0."""
+    """Without scattering [eq. 24] is exact in a chain of one cell, which is a path long. Detected
+    mistakes: without the particles below the bins p_0 is a tenth larger at the last time; where |p| n(p)
+    is half of the plateau is e/2 p_0."""
     times = (20, 60, 200)
     free = EQUAL | {"nu_left": 1000, "nu_right": 1000, "cells": 1, "cell_length": 1, "gamma": 0}
     result = measure("particle_count", **free, times=",".join(map(str, times)), replicas=400)
@@ -133,7 +135,8 @@ def test_front_of_free_flight(measure: Measure) -> None:
 
 
 def test_equilibrium(measure: Measure) -> None:
-    """F and g are Gaussian at the temperature of the baths, by moments and by bins; test_collision_rule.py tests their temperatures."""
+    """F and g are Gaussian at the temperature of the baths, by moments and by bins; test_collision_rule.py
+    tests their temperatures."""
     options = {"cells": 8, "gamma": 1, "replicas": 200, "relaxation_time": 20, "observation_time": 30}
     options |= {**EQUAL, "momentum_bins": BINS}
     profile = measure("steady_profile", **options)
@@ -176,8 +179,8 @@ def test_equilibrium(measure: Measure) -> None:
 def test_reduced_and_plain_estimates_over_seeds(
     over_seeds: OverSeeds, gamma: str | int, cells: int, times: tuple[int, int], target: str
 ) -> None:
-    """Estimates with control variates, and those of too few replicas for these, agree; the former have smaller errors, and both errors
-    predict the spread over seeds."""
+    """Estimates with control variates, and those of too few replicas for these, agree; the former have
+    smaller errors, and both errors predict the spread over seeds."""
     options = {"gamma": gamma, "cells": cells, "relaxation_time": times[0], "observation_time": times[1]}
     many, few = 40, 16
     reduced, error = over_seeds("conductivity", 50, target, **options, replicas=many)[target]

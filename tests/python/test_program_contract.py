@@ -13,7 +13,8 @@ from workflow.pipeline.described import options_of_programs
 
 
 def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> None:
-    """The file names neither a folder nor the machine; what differs between runs is in the file of the cost."""
+    """The file names neither a folder nor the machine; what differs between runs is in the file of the
+    cost."""
     assert program("persistence", sigma=0.25, seed=7).returncode == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.cost.json", "out.h5"]
     result = load(tmp_path / "out.h5")

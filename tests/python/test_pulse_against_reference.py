@@ -1,5 +1,5 @@
-"""Profiles of the energy pulse against the reference simulator, which shares no code with the program. test_pulse_peak.py tests what
-follows from them."""
+"""Profiles of the energy pulse against the reference simulator, which shares no code with the program.
+test_pulse_peak.py tests what follows from them."""
 
 from functools import cache
 
@@ -36,7 +36,8 @@ def scores(result: Result, gamma: float, times: tuple[float, ...], pairs: int) -
 
 
 def accepted(z: np.ndarray) -> bool:
-    """Whether the largest score is below a bound that is valid although energy conservation makes cells anticorrelated."""
+    """Whether the largest score is below a bound that is valid although energy conservation makes cells
+    anticorrelated."""
     return bool(np.abs(z).max() < 4 and np.sum(z**2) < chi2.ppf(1 - 1e-4, len(z)))
 
 

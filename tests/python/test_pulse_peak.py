@@ -42,9 +42,9 @@ def fit(profile: np.ndarray) -> tuple[float, float]:
 
 @cache
 def free_profile(time: float) -> np.ndarray:
-    """Mean energy difference by distance from the central cell without scattering. Particles start uniformly in
-    the cell. Their momenta are uniform on a sphere with the pulse, which fixes the total energy of the cell, and
-    Gaussian without."""
+    """Mean energy difference by distance from the central cell without scattering. Particles start
+    uniformly in the cell. Their momenta are uniform on a sphere with the pulse, which fixes the total
+    energy of the cell, and Gaussian without."""
     dof = PARTICLES + 1
     speed = np.linspace(-1, 1, 400001)[1:-1] * np.sqrt(2 * PULSE_ENERGY * dof)
     with_pulse = (1 - speed**2 / (2 * PULSE_ENERGY * dof)) ** ((dof - 3) / 2)
@@ -102,8 +102,8 @@ RINGS = {
 
 @pytest.mark.parametrize("gamma", RINGS)
 def test_errors_and_mirror_symmetry_over_seeds(over_seeds: OverSeeds, gamma: str | int) -> None:
-    """The spread over seeds against the stored errors, for all quantities of the peak and for the odd part, whose mean is 0, also on a
-    ring with an even number of cells."""
+    """The spread over seeds against the stored errors, for all quantities of the peak and for the odd
+    part, whose mean is 0, also on a ring with an even number of cells."""
     chain = RINGS[gamma] | {"particles_per_cell": 20, "gamma": gamma}
     effort = {"pairs_per_replica": 10, "replicas": REPLICAS}
     names = (*OF_THE_PEAK, "odd_part", "energy_difference")

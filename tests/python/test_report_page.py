@@ -59,7 +59,8 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, an
 
 
 def test_an_answer_with_several_quantities_labels_them() -> None:
-    """Of κ by size, and of the difference in chains and in rings. Detected mistake: the largest and the smallest value without labels."""
+    """Of κ by size, and of the difference in chains and in rings. Detected mistake: the largest and the
+    smallest value without labels."""
     data = Data("smoke", ROOT)
     data.plan = {}
     page = rendered(judged("contradicted"), data, release=True).decode()
@@ -75,7 +76,8 @@ def test_an_undecided_answer_says_so() -> None:
 
 
 def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> None:
-    """Detected mistakes: the verdict of the number in place of that of the claim; rows that are decided here have it, too."""
+    """Detected mistakes: the verdict of the number in place of that of the claim; rows that are decided
+    here have it, too."""
     (tmp_path / GALLERY).mkdir(parents=True)
     (tmp_path / GALLERY / "numbers.csv").write_bytes(numbers_file(judged("contradicted")))
     data = Data("smoke", tmp_path)

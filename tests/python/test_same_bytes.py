@@ -94,7 +94,8 @@ def test_without_fused_multiply_add_at_the_sizes_of_the_paper(name: str, tmp_pat
 @pytest.mark.long
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_no_instruction_depends_on_the_processor(program: str) -> None:
-    """Programs use no 80-bit arithmetic. They query neither caches nor instruction sets, on which Eigen's sums would depend."""
+    """Programs use no 80-bit arithmetic. They query neither caches nor instruction sets, on which Eigen's
+    sums would depend."""
     command = ["objdump", "-d", "-C", "--no-show-raw-insn", ROOT / "build/bin" / program]
     function, functions = "", set()
     for line in subprocess.check_output(command, text=True).splitlines():

@@ -1,4 +1,5 @@
-"""Sound: speed and self-coupling from the Euler currents by computer algebra; the logarithm of slow particles."""
+"""Sound: speed and self-coupling from the Euler currents by computer algebra; the logarithm of slow
+particles."""
 
 from functools import cache
 from math import sqrt
@@ -22,7 +23,8 @@ def second_order(expression: Expr) -> Expr:
 
 
 def moment(power: int, sign: int) -> Expr:
-    """Integral of |p|^power over both halves of the flux exp(-(p-w)²/2T), the left half times `sign`, to second order in w."""
+    """Integral of |p|^power over both halves of the flux exp(-(p-w)²/2T), the left half times `sign`, to
+    second order in w."""
     expanded = second_order(exp((2 * p * w - w**2) / (2 * T)))
     both = expanded + sign * expanded.subs(w, -w)
     return sympy.expand(integrate(sympy.expand(both * p**power * exp(-(p**2) / (2 * T))), (p, 0, oo)))
@@ -38,7 +40,8 @@ def fields_and_currents() -> tuple[Matrix, Matrix]:
 
 @cache
 def normal_modes() -> tuple[Matrix, Matrix, Matrix]:
-    """Fields, their linear combinations of unit variance that move to the right and to the left, and second-order currents."""
+    """Fields, their linear combinations of unit variance that move to the right and to the left, and
+    second-order currents."""
     fields, currents = fields_and_currents()
     at_rest = {w: 0}
     static = Matrix([fields[0].diff(w), fields[1].diff(T)]).subs(at_rest)  # dg/dw = ρ, de/dT = a

@@ -1,7 +1,8 @@
 """The units that files declare for every number of every program.
 
-Physics does not depend on units: with momenta and lengths scaled, every program must find the same numbers in other units. For powers
-of two the random numbers and the events are the same, so that all results agree to rounding.
+Physics does not depend on units: with momenta and lengths scaled, every program must find the same numbers in
+other units. For powers of two the random numbers and the events are the same, so that all results agree to
+rounding.
 """
 
 from collections.abc import Iterator
@@ -78,7 +79,8 @@ def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
 
 
 def misfits(plain: Result, scaled: Result, stated: str | None = None) -> set[str]:
-    """The datasets that do not scale according to the units of the plain result, or to the same stated units for all."""
+    """The datasets that do not scale according to the units of the plain result, or to the same stated
+    units for all."""
     return {
         path
         for (path, values, units), (_, converted, _) in zip(datasets(plain), datasets(scaled), strict=True)
@@ -107,7 +109,8 @@ WRONG = ("1", "length", "time", "1/time", "momentum", "energy", "momentum/time",
 
 @pytest.mark.parametrize("program", sorted({program for program, _ in CASES.values()}))
 def test_every_wrong_unit_is_found(program: str) -> None:
-    """A wrong unit is found in at least one case of the program, as a quantity may be NaN or 0 in the other cases."""
+    """A wrong unit is found in at least one case of the program, as a quantity may be NaN or 0 in the
+    other cases."""
     cases = [measured(name) for name, (its_program, _) in CASES.items() if its_program == program]
     for wrong in WRONG:
         found = set().union(*(misfits(plain, scaled, wrong) for plain, scaled in cases))

@@ -1,4 +1,5 @@
-"""The rules of the verdicts on numbers with known true values: how often a verdict is wrong, and its power."""
+"""The rules of the verdicts on numbers with known true values: how often a verdict is wrong, and its
+power."""
 
 import math
 
@@ -42,7 +43,8 @@ def within(count: int, probability: float) -> bool:
 
 @pytest.mark.parametrize("wrong", [Outcome.CONTRADICTED, Outcome.REPRODUCED])
 def test_wrong_verdicts_at_the_edge_are_as_frequent_as_the_level(wrong: Outcome) -> None:
-    """If the true value is on the edge of the band, each of both verdicts occurs with half of the two-sided level, and is wrong."""
+    """If the true value is on the edge of the band, each of both verdicts occurs with half of the
+    two-sided level, and is wrong."""
     assert within(share(measured(1, 0.2), wrong), LEVEL / 2)
 
 

@@ -1,4 +1,5 @@
-"""A small project of two panels and four short runs, for tests that change it; and the figures of this project at smoke quality."""
+"""A small project of two panels and four short runs, for tests that change it; and the figures of this
+project at smoke quality."""
 
 import fcntl
 import multiprocessing
@@ -68,7 +69,8 @@ class Project:
         return done
 
     def workflow(self, *words: str, status: int = 0, path: str = os.environ["PATH"]) -> str:
-        """Output of `python -m workflow`, in a fork of this process, which has imported the packages: 0.1 s in place of 2 s."""
+        """Output of `python -m workflow`, in a fork of this process, which has imported the packages: 0.1
+        s in place of 2 s."""
         with tempfile.TemporaryFile("w+") as output:
             arguments = (self.folder, words, output.fileno(), plain() | {"PATH": path})
             fork = multiprocessing.get_context("fork").Process(target=_workflow, args=arguments)
@@ -168,7 +170,8 @@ def new_project(folder: Path) -> Project:
 
 
 def share_packages(folder: Path) -> None:
-    """An environment with the interpreter and the packages of this one, that imports the modules of the folder."""
+    """An environment with the interpreter and the packages of this one, that imports the modules of the
+    folder."""
     (folder / ".venv/bin").mkdir(parents=True)
     (folder / ".venv/bin/python").symlink_to(Path(sys.executable).resolve())
     (folder / ".venv/lib").symlink_to(ROOT / ".venv/lib")

@@ -29,7 +29,8 @@ def append(path: str, line: str) -> Edit:
 
 
 def unimportant(project: Project) -> None:
-    """Comments, files named like literals, files of editors, no memory of Snakemake, and other modification times in another order."""
+    """Comments, files named like literals, files of editors, no memory of Snakemake, and other
+    modification times in another order."""
     for path in ("cpp/statistics/fit.hpp", "workflow/pipeline/plan.py", "Snakefile", PAPER):
         append(path, "// x\n" if path.startswith("cpp") else "# x\n")(project)
     for name in ("log", "linear", "center", "data.csv"):
@@ -131,7 +132,8 @@ def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(pr
 
 
 def test_a_wrong_result_is_refused_and_takes_no_other_panel_with_it(project: Project) -> None:
-    """A result of another run; then a deleted file, and options in another order. test_load has the ways of damage."""
+    """A result of another run; then a deleted file, and options in another order. test_load has the ways
+    of damage."""
     before, wrong = project.products(), project.one("data/smoke/energy/few.*.h5")
     shutil.copy(project.one("data/smoke/mu/all_sigma=-0.5.*.h5"), wrong)
     for record in project.folder.glob("figures/smoke/*.json"):

@@ -22,7 +22,8 @@ GALLERY = ROOT / "docs/gallery"
 
 
 def released(_quality: str, panel: str, run: Run) -> str:
-    """The result of a run in git, also after a change of its program, which gives new results another identity."""
+    """The result of a run in git, also after a change of its program, which gives new results another
+    identity."""
     names = Path(ROOT, "data", QUALITY, panel).glob(f"{run.name}.*.h5")
     (path,) = (path for path in names if path.name.removeprefix(f"{run.name}.").removesuffix(".h5").isalnum())
     return str(path.relative_to(ROOT))
@@ -37,8 +38,8 @@ def pixels(picture: Path) -> np.ndarray:
 def test_gallery_is_rendered_from_the_results_of_the_release(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Detected mistakes: a number, a verdict, a caption or a picture edited by hand; scripts, claims or configuration changed without the
-    gallery."""
+    """Detected mistakes: a number, a verdict, a caption or a picture edited by hand; scripts, claims or
+    configuration changed without the gallery."""
     plan, folder = load_plan(QUALITY), tmp_path / QUALITY
     jobs = [
         Job(

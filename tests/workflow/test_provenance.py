@@ -61,7 +61,8 @@ def commit(project: Project) -> None:
         project.run("git", *words)
 
 
-# Edits; the command and its exit status; state, path (before the edits) and a part of the reason of every product that it names.
+# Edits; the command and its exit status; state, path (before the edits) and a part of the reason of every
+# product that it names.
 STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
     "a panel that has only lent its runs, and files of the user": (
         [

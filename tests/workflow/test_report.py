@@ -80,7 +80,8 @@ PROBE = """<script>addEventListener("load", () => parent.postMessage(
 @pytest.mark.long
 @pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
 def test_the_report_on_a_narrow_screen(smoke: Path, tmp_path: Path) -> None:
-    """In a frame of 390 pixels, with a script that reads what is beyond its width. Detected mistake: a picture or a table is wider than the screen."""
+    """In a frame of 390 pixels, with a script that reads what is beyond its width. Detected mistake: a
+    picture or a table is wider than the screen."""
     page = (smoke / "figures/smoke/report.html").read_text()
     allowed = re.sub(r"<meta http-equiv=.Content-Security-Policy.*?>", "", page)
     found = []
@@ -125,7 +126,8 @@ def test_series_and_panels_of_the_user_count_for_no_claim(smoke: Path) -> None:
 
 
 def test_no_quality_contradicts_another(smoke: Path, gallery: Path) -> None:
-    """The same row is not reproduced at one quality and contradicted at another, among the release and the qualities made here."""
+    """The same row is not reproduced at one quality and contradicted at another, among the release and the
+    qualities made here."""
     verdicts = defaultdict(dict)
     for quality, folder in (("release", ROOT / "docs/gallery"), ("smoke", gallery)):
         with (folder / "numbers.csv").open(newline="") as file:

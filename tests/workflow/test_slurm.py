@@ -1,4 +1,5 @@
-"""A panel on a cluster of one node, with results of the same bytes as without. Needs root and the packages slurm-wlm and munge."""
+"""A panel on a cluster of one node, with results of the same bytes as without. Needs root and the packages
+slurm-wlm and munge."""
 
 import os
 import secrets
@@ -124,8 +125,8 @@ def cluster() -> Iterator[Cluster]:
 
 
 def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Project, tmp_path: Path) -> None:
-    """Results have the bytes of those of one machine: of four short runs in one job; and of two longer ones that Ctrl-C and then
-    scancel end."""
+    """Results have the bytes of those of one machine: of four short runs in one job; and of two longer
+    ones that Ctrl-C and then scancel end."""
     project = Project(Path(shutil.copytree(made.folder, tmp_path / "no_space", symlinks=True)))
     quicker = {"threads: 16": "threads: 2", "checks: 20": "checks: 2", "latency-wait: 60": "latency-wait: 10"}
     for old, new in quicker.items():
@@ -167,7 +168,8 @@ def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Proj
 
 
 def make(project: Project, words: list[str]) -> subprocess.Popen[str]:
-    """A command on the cluster, in a session of its own, with SIGINT as in a terminal also where the tests run in the background."""
+    """A command on the cluster, in a session of its own, with SIGINT as in a terminal also where the tests
+    run in the background."""
     command = ["env", "--default-signal=INT", *words, "PROFILE=slurm"]
     return subprocess.Popen(
         command, cwd=project.folder, stdout=subprocess.PIPE, text=True, start_new_session=True

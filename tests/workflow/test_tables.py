@@ -39,7 +39,8 @@ def stated(folder: Path, panel: str) -> tuple[dict[str, str], str]:
 
 @cache
 def tables(folder: Path, panel: str) -> list[pd.DataFrame]:
-    """Tables from the results in the default units and in other ones. All runs missed their targets, which no panel and no caption may need."""
+    """Tables from the results in the default units and in other ones. All runs missed their targets, which
+    no panel and no caption may need."""
     draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
     given = [load(folder / path) for path in data_of(PLAN, panel, "smoke")]
     missed = [replace(result, provenance=result.provenance | {"converged": NOT_REACHED}) for result in given]
@@ -115,7 +116,8 @@ def test_a_figure_is_drawn_in_another_style(smoke: Path, tmp_path: Path) -> None
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_is_rendered_from_one_replica(smoke: Path, panel: str) -> None:
-    """REPLICAS=1: no error is known. Detected mistakes: a fit that fails, a mean without weights, an axis without numbers."""
+    """REPLICAS=1: no error is known. Detected mistakes: a fit that fails, a mean without weights, an axis
+    without numbers."""
 
     def alone(quantity: Quantity) -> Quantity:
         if quantity.count is None:

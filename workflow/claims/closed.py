@@ -1,4 +1,5 @@
-"""Claims on the closed chain: persistence, waiting times, spreading, conservation (figs. 5 to 7, section 5)."""
+"""Claims on the closed chain: persistence, waiting times, spreading, conservation (figs. 5 to 7, section
+5)."""
 
 import math
 import sys
@@ -13,7 +14,8 @@ from workflow.physics.closed import persistence_law
 
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
-    """One number per run. Labels have the name, the mass ratio and, if they differ between runs, particles per cell and relaxation time."""
+    """One number per run. Labels have the name, the mass ratio and, if they differ between runs, particles
+    per cell and relaxation time."""
     symbols = {"particles-per-cell": "n", "relaxation-time": "t_r"}
     differing = [key for key in symbols if len({result.parameters[key] for result in results}) > 1]
     numbers = []
@@ -51,7 +53,8 @@ def persistent(data: Data) -> list[Estimate]:
 
 
 def waiting_half(data: Data) -> list[Estimate]:
-    """Exponent of the waiting times at sigma = 1/2. Its change with the age of the chain is a systematic error, too."""
+    """Exponent of the waiting times at sigma = 1/2. Its change with the age of the chain is a systematic
+    error, too."""
     young = data.one("fig06", "young")["exponent"].mean
     return [with_systematic(_waiting(data, 0.5), [float(young)])]
 
@@ -61,7 +64,8 @@ def waiting_zero(data: Data) -> list[Estimate]:
 
 
 def _waiting(data: Data, sigma: float) -> Estimate:
-    """Exponent of the waiting times. Its spread over cuts of the tail within a factor of three is a systematic error."""
+    """Exponent of the waiting times. Its spread over cuts of the tail within a factor of three is a
+    systematic error."""
     result, *_ = data.results("fig06", "all", sigma=sigma)
     exponent = estimate(result, "exponent", label="exponent of Ψ(τ)")
     return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
@@ -105,8 +109,8 @@ def random_directions(data: Data) -> list[Estimate]:
 
 
 def momentum_changes(data: Data) -> list[Estimate]:
-    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. Changes below
-    the rounding error are replaced by it."""
+    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten.
+    Changes below the rounding error are replaced by it."""
     name = "log₁₀ of the relative change of Σp + ΣP"
     drifts = []
     for series, where in (("all", ""), ("zero-momentum", " = 0")):

@@ -25,8 +25,8 @@ class Data:
         self.loaded: dict[str, Result] = {}  # loaded results by path
 
     def results(self, panel: str, *series: str, **parameters: object) -> list[Result]:
-        """The results of series of a panel with these parameters (underscores for dashes). Other series, as those of the user, do not count.
-        Raises MissingError if there are none, FormatError, OSError."""
+        """The results of series of a panel with these parameters (underscores for dashes). Other series,
+        as those of the user, do not count. Raises MissingError if there are none, FormatError, OSError."""
         wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
         results = []
         for run in (run for run in self._runs(panel) if run.series in series):
@@ -113,8 +113,8 @@ def log_slope(first: Estimate, last: Estimate, factor: float) -> Estimate:
 def power(
     results: Sequence[Result], size: Sequence[float], values: Sequence[Estimate], label: str
 ) -> Estimate:
-    """Exponent of a power law through independent numbers; if they reject the law, the label states it. The systematic error is the change
-    of the exponent without the first number."""
+    """Exponent of a power law through independent numbers; if they reject the law, the label states it.
+    The systematic error is the change of the exponent without the first number."""
     x, y, error = (
         np.asarray(size, float),
         np.array([point.value for point in values]),

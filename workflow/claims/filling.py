@@ -1,4 +1,5 @@
-"""Claims on the chain that fills (fig. 1), at the spacing 1/N of the paper's other open chains, as it states none for this one."""
+"""Claims on the chain that fills (fig. 1), at the spacing 1/N of the paper's other open chains, as it
+states none for this one."""
 
 from workflow.claims.data import Data, estimate, ratio
 from workflow.claims.verdict import Estimate
@@ -19,7 +20,8 @@ def stationary_above_front(data: Data) -> list[Estimate]:
 
 
 def grows_logarithmically(data: Data) -> list[Estimate]:
-    """dn/d ln t over the height of |p| n_t(p) above p_0 at the last time, minus 1: if that is stationary while p_0 falls as 1/t, both are equal."""
+    """dn/d ln t over the height of |p| n_t(p) above p_0 at the last time, minus 1: if that is stationary
+    while p_0 falls as 1/t, both are equal."""
     result = data.one("fig01", RUN)
     slope, plateau = estimate(result, "log_slope"), estimate(result, "plateau", -1)
     return [ratio(slope, plateau, "(dn/d ln t)/(|p| n_t(p)) - 1") - 1]

@@ -22,7 +22,8 @@ OTHERWISE = 1e-3
 
 
 def equilibrium(data: Data) -> list[Estimate]:
-    """Between equal baths: moments of the outgoing flux and of the end scatterers, relative to the Gaussian, and Kolmogorov distances."""
+    """Between equal baths: moments of the outgoing flux and of the end scatterers, relative to the
+    Gaussian, and Kolmogorov distances."""
     numbers, baths = [], dict.fromkeys(("temperature_left", "temperature_right"), EQUAL)
     for gamma in (1, "N"):
         flux, profile = (
@@ -54,8 +55,8 @@ def equilibrium(data: Data) -> list[Estimate]:
 def largest_distance(
     momentum: np.ndarray, density: np.ndarray, error: np.ndarray, temperature: float
 ) -> tuple[float, float]:
-    """Largest difference of the cumulative sums of a histogram and of the Gaussian of a temperature, with the error of the sum there. Empty
-    bins have no error."""
+    """Largest difference of the cumulative sums of a histogram and of the Gaussian of a temperature, with
+    the error of the sum there. Empty bins have no error."""
     width = momentum[1] - momentum[0]
     below, above = (erf((momentum + side * width / 2) / np.sqrt(2 * temperature)) for side in (-1, 1))
     distance = np.abs(np.cumsum(density * width - 0.5 * (above - below)))
@@ -64,7 +65,8 @@ def largest_distance(
 
 
 def jump_and_halves(data: Data) -> list[Estimate]:
-    """Jump of F at p = 0 over max F, and departure of the outgoing halves from a Gaussian, by the kinetic equation at both ends."""
+    """Jump of F at p = 0 over max F, and departure of the outgoing halves from a Gaussian, by the kinetic
+    equation at both ends."""
     result = data.one("fig03", "paper")
     largest = float(result["flux_density"].mean.max())
     jumps = [estimate(result, "jump", end, f"jump/max F, x = {half}") / largest for end, half, _ in OUTGOING]
@@ -90,13 +92,14 @@ def _magnitude(number: Estimate) -> Estimate:
 
 
 def _finite(data: Data) -> tuple[pd.DataFrame, float]:
-    """Deviations of finite chains from the kinetic equation, and the degrees of dof of their errors."""
+    """Deviations of finite chains from the kinetic equation, and the degrees of freedom of their errors."""
     simulated = data.results("fig03_inset", "simulation")
     return deviations(simulated + data.results("fig03_inset", "continuum", "mean-field")), dof(*simulated)
 
 
 def deviations_over_bounds(data: Data) -> list[Estimate]:
-    """F_N - F of the outgoing particles over the printed bound, in every bin within REACH; bins beyond contain too few particles."""
+    """F_N - F of the outgoing particles over the printed bound, in every bin within REACH; bins beyond
+    contain too few particles."""
     rows, degrees = _finite(data)
     scale = float((rows.absolute_as_printed / rows.deviation).median())
     numbers = []
@@ -108,8 +111,8 @@ def deviations_over_bounds(data: Data) -> list[Estimate]:
 
 
 def deviations_central(data: Data) -> list[Estimate]:
-    """Deviations at N = 2, where they are largest: those beyond the thermal momentum against those of the two central bins, and the odd part
-    of the central ones over their mean magnitude."""
+    """Deviations at N = 2, where they are largest: those beyond the thermal momentum against those of the
+    two central bins, and the odd part of the central ones over their mean magnitude."""
     table, degrees = _finite(data)
     temperature = np.mean(data.one("fig03_inset", "simulation_cells=2").ends("temperature"))
     part = _of_size(table, 2)
@@ -154,7 +157,8 @@ def tends_to_kinetic(data: Data) -> list[Estimate]:
 
 
 def on_top_of_kinetic(data: Data) -> list[Estimate]:
-    """F_N minus the solution F of the kinetic equation over the largest F, at both ends of the chain with gamma = 1."""
+    """F_N minus the solution F of the kinetic equation over the largest F, at both ends of the chain with
+    gamma = 1."""
     simulated, kinetic = data.one("fig04a", "rare"), data.one("fig04a", "kinetic")["flux"]
     flux, scale = simulated["flux"], float(kinetic.mean.max())
     return [
@@ -180,8 +184,9 @@ def jump_smaller(data: Data) -> list[Estimate]:
 
 
 def jump_from_rates_only(data: Data) -> list[Estimate]:
-    """Jump at equal rates, unequal temperatures and gamma = N, over max F. It is extrapolated by lines through two bins on either side; the
-    error of this extrapolation in mean field bounds the systematic error."""
+    """Jump at equal rates, unequal temperatures and gamma = N, over max F. It is extrapolated by lines
+    through two bins on either side; the error of this extrapolation in mean field bounds the systematic
+    error."""
     equal, kinetic = (data.one("fig04b", run) for run in ("equal", "mean-field-equal"))
     scale = float(equal["flux"].mean.max())
     missed = max(_extrapolation_errors(kinetic, equal["flux"])) / scale

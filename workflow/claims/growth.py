@@ -57,7 +57,8 @@ def _stationary(runs: Iterable[Result]) -> list[Result]:
 
 
 def exponent(runs: Sequence[Result], name: str) -> Estimate:
-    """Exponent of the conductivity against the number of cells, over the sizes of the runs. Raises MissingError for fewer than two."""
+    """Exponent of the conductivity against the number of cells, over the sizes of the runs. Raises
+    MissingError for fewer than two."""
     cells = [run.parameters["cells"] for run in runs]
     if len(runs) < 2:
         raise MissingError("fewer than two stationary sizes")
@@ -67,13 +68,15 @@ def exponent(runs: Sequence[Result], name: str) -> Estimate:
 
 
 def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
-    """The smaller and the larger sizes, with the middle one in both. A power law has the same exponent in both halves."""
+    """The smaller and the larger sizes, with the middle one in both. A power law has the same exponent in
+    both halves."""
     middle = len(by_size) // 2
     return [part for part in (by_size[: middle + 1], by_size[middle:]) if len(part) > 1]
 
 
 def cube_root(data: Data) -> list[Estimate]:
-    """Exponents of kappa over the smaller and over the larger half of fig. 8's sizes at gamma = N, which agree for a power law."""
+    """Exponents of kappa over the smaller and over the larger half of fig. 8's sizes at gamma = N, which
+    agree for a power law."""
     parts = halves(_with_bulk(sizes(data, "N")))
     if not parts:
         raise MissingError("fewer than two stationary sizes")
@@ -85,8 +88,8 @@ def _with_bulk(runs: Sequence[Result]) -> list[Result]:
 
 
 def superdiffusive(data: Data) -> list[Estimate]:
-    """beta of <Q²> ∼ t^beta, from t = LATE on in the longest ring of every gas that was measured so long. The errors of both ends are taken as independent, which
-    overestimates that of their ratio."""
+    """beta of <Q²> ∼ t^beta, from t = LATE on in the longest ring of every gas that was measured so long.
+    The errors of both ends are taken as independent, which overestimates that of their ratio."""
     numbers = []
     for ring in _longest(data.results("momentum", *ELASTIC)):
         times = ring["heat_variance"].axes["time"]
@@ -98,9 +101,10 @@ def superdiffusive(data: Data) -> list[Estimate]:
 
 
 def without_momentum(data: Data) -> list[Estimate]:
-    """Local exponent of kappa where a particle passes a scatterer with the probability DISTURBED, which conserves momentum, minus that where
-    this fraction of the collisions reverses the scatterer, which does not: of chains between the two largest sizes that both have, and
-    beta - 1 of rings over the last octave that both have."""
+    """Local exponent of kappa where a particle passes a scatterer with the probability DISTURBED, which
+    conserves momentum, minus that where this fraction of the collisions reverses the scatterer, which does
+    not: of chains between the two largest sizes that both have, and beta - 1 of rings over the last octave
+    that both have."""
     passing, reversed_ = (
         {chain.parameters["cells"]: chain for chain in _stationary(chains)}
         for chains in _disturbed(data, "chain-passing", "chain-reversal")
@@ -123,7 +127,8 @@ def without_momentum(data: Data) -> list[Estimate]:
 
 
 def _disturbed(data: Data, passing: str, reversal: str) -> tuple[list[Result], list[Result]]:
-    """Runs of both series in which DISTURBED is the probability of the disturbance. Raises MissingError without one."""
+    """Runs of both series in which DISTURBED is the probability of the disturbance. Raises MissingError
+    without one."""
     runs = (
         [run for run in data.results("momentum", passing) if run_parameters.passing(run) == DISTURBED],
         data.results("momentum", reversal, reversal_probability=DISTURBED),

@@ -69,6 +69,7 @@ def judge(row: Mapping[str, str], data: Data, level: float) -> Judgement:
 
 
 def changed(judgements: Sequence[Judgement], factor: float) -> list[tuple[Judgement, Outcome]]:
-    """Rows whose verdict is another one if every band with two edges is wider by a factor, with this verdict."""
+    """Rows whose verdict is another one if every band with two edges is wider by a factor, with this
+    verdict."""
     others = [(one, replace(one.verdict, band=one.verdict.band.wider(factor)).outcome) for one in judgements]
     return [(one, outcome) for one, outcome in others if outcome is not one.verdict.outcome]

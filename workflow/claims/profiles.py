@@ -19,7 +19,8 @@ def _both(data: Data) -> list[tuple[Result, str]]:
 
 
 def temperatures_mismatch(data: Data) -> list[Estimate]:
-    """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma = 1."""
+    """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma =
+    1."""
     jumps = []
     for result, name in _both(data):
         low, high = result.ends("temperature")
@@ -42,8 +43,8 @@ def temperatures_coincide(data: Data) -> list[Estimate]:
 
 
 def density_profiles(data: Data) -> list[Estimate]:
-    """Slope of the density in the bulk at gamma = 1 over that at gamma = N, and excess of particles in both end cells over the line through
-    the bulk."""
+    """Slope of the density in the bulk at gamma = 1 over that at gamma = N, and excess of particles in
+    both end cells over the line through the bulk."""
     both = [result for result, _ in _both(data)]
     above, below = (estimate(profile, "density_slope") for profile in reversed(both))
     slope = ratio(above, below, "")

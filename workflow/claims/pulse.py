@@ -1,7 +1,7 @@
 """Claims on the energy pulse (figs. 9 and 10), and on its relation to the conductivity.
 
-Literal statements are judged from the paper's start, scatterers at rest that have relaxed. Other starts, rings and pulses belong to the
-intended meaning.
+Literal statements are judged from the paper's start, scatterers at rest that have relaxed. Other starts,
+rings and pulses belong to the intended meaning.
 """
 
 from dataclasses import replace
@@ -19,8 +19,9 @@ LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
 
 
 def peaks_leave(data: Data) -> list[Estimate]:
-    """The fraction of the energy in the five central cells at the last time, the odd part at the peak over the peak at every time, and d ln
-    v/d ln t of the peaks between the first and the last pair of times, each over its bound."""
+    """The fraction of the energy in the five central cells at the last time, the odd part at the peak over
+    the peak at every time, and d ln v/d ln t of the peaks between the first and the last pair of times,
+    each over its bound."""
     result = data.one("fig09a", PAPERS_START)
     share = estimate(result, "centre_share", -1, "fraction in the centre/0.1")
     slowing = replace(_slowing(result), label="(d ln v/d ln t)/(1/4)")
@@ -55,14 +56,15 @@ def ballistic(data: Data) -> list[Estimate]:
 
 
 def ballistic_later(data: Data) -> list[Estimate]:
-    """The same in a ring ten times as long at later times, where the width of the cell in which the pulse begins no longer counts."""
+    """The same in a ring ten times as long at later times, where the width of the cell in which the pulse
+    begins no longer counts."""
     ring = data.one("fig10b", "long")
     return [_way(ring)]
 
 
 def _way(result: Result) -> Estimate:
-    """Exponent of the position between the first and the last time with a moving peak. The exponents without the first or
-    without the last of them bound the systematic error."""
+    """Exponent of the position between the first and the last time with a moving peak. The exponents
+    without the first or without the last of them bound the systematic error."""
     resolved = np.flatnonzero(np.isfinite(result["peak_position"].mean))
     if len(resolved) < 3:
         raise MissingError("too few times with a moving peak")
@@ -78,8 +80,8 @@ def _way(result: Result) -> Estimate:
 
 
 def damping(data: Data) -> list[Estimate]:
-    """Damping exponent of the paper's pulse at gamma = N, fitted to all times. Fits that begin later and the bias of the fits of the peak's
-    height bound the systematic error."""
+    """Damping exponent of the paper's pulse at gamma = N, fitted to all times. Fits that begin later and
+    the bias of the fits of the peak's height bound the systematic error."""
     fit = _of_all_times(data.one("fig09a", PAPERS_START), "damping exponent")
     return [replace(fit, systematic=fit.systematic + PEAK_BIAS)]
 
@@ -90,14 +92,16 @@ def damping_rare(data: Data) -> list[Estimate]:
 
 
 def _of_all_times(result: Result, label: str) -> Estimate:
-    """Damping exponent over all times. Fits that leave out up to half of the times bound the systematic error."""
+    """Damping exponent over all times. Fits that leave out up to half of the times bound the systematic
+    error."""
     later = [float(slope) for slope in result["damping_exponent_from"].mean]
     slope = estimate(result, "damping_exponent", label=label)
     return with_systematic(slope, later[1 : len(later) // 2 + 1])
 
 
 def relation_of_moving_peaks(data: Data) -> list[Estimate]:
-    """2 - 1/xi minus the exponent of kappa over the largest sizes, with xi of the pulse's moving peaks, for both gamma."""
+    """2 - 1/xi minus the exponent of kappa over the largest sizes, with xi of the pulse's moving peaks,
+    for both gamma."""
     excesses = []
     for panel, gamma in (("fig09a", "N"), ("fig09b", 1)):
         xi = _of_all_times(data.one(panel, PAPERS_START), "")

@@ -1,8 +1,9 @@
 """The verdict on a claim from its numbers and its acceptance band.
 
-A measurement is an interval: the value, plus and minus the systematic error and as many standard errors as the level requires. The
-claim is reproduced if all its intervals are inside the band, contradicted if one is outside, and undecided otherwise, also if nothing was
-measured. So neither of the first two verdicts is wrong more often than the level.
+A measurement is an interval: the value, plus and minus the systematic error and as many standard errors as
+the level requires. The claim is reproduced if all its intervals are inside the band, contradicted if one is
+outside, and undecided otherwise, also if nothing was measured. So neither of the first two verdicts is wrong
+more often than the level.
 """
 
 import math
@@ -24,7 +25,8 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Estimate:
-    """A measured number. error: standard error with `dof` degrees of dof; systematic: bound on the systematic error."""
+    """A measured number. error: standard error with `dof` degrees of freedom; systematic: bound on the
+    systematic error."""
 
     label: str
     value: float
@@ -76,7 +78,8 @@ class Band:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Verdict on a claim that all its numbers lie in the band. level: significance level, shared equally by the numbers."""
+    """Verdict on a claim that all its numbers lie in the band. level: significance level, shared equally
+    by the numbers."""
 
     band: Band
     numbers: tuple[Estimate, ...]
@@ -97,8 +100,8 @@ class Verdict:
 
     @property
     def shown(self) -> Estimate:
-        """The number farthest outside the band; without one, the number whose interval reaches farthest across an edge or is closest to it.
-        Distances are in the unit of the band."""
+        """The number farthest outside the band; without one, the number whose interval reaches farthest
+        across an edge or is closest to it. Distances are in the unit of the band."""
 
         def reach(number: Estimate) -> tuple[bool, float]:
             low, high = number.interval(self.level / len(self.numbers))
@@ -110,7 +113,8 @@ class Verdict:
 
 
 def level_of_each(claims: int) -> float:
-    """Significance level of each claim by Bonferroni: the probability of any wrong verdict is at most FAMILY_LEVEL."""
+    """Significance level of each claim by Bonferroni: the probability of any wrong verdict is at most
+    FAMILY_LEVEL."""
     return FAMILY_LEVEL / claims
 
 

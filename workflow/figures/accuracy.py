@@ -1,8 +1,9 @@
-"""Accuracy against time: errors of four programs with several numbers of replicas, and of the kinetic solver at several resolutions,
-against CPU time; distances from a reference; bias against cost of the relaxation time and of the first time of a fit.
+"""Accuracy against time: errors of four programs with several numbers of replicas, and of the kinetic solver
+at several resolutions, against CPU time; distances from a reference; bias against cost of the relaxation time
+and of the first time of a fit.
 
-The time is that of each run on the machine that made it, from the file of its cost (docs/format.md), so that this panel alone differs
-between machines.
+The time is that of each run on the machine that made it, from the file of its cost (docs/format.md), so that
+this panel alone differs between machines.
 """
 
 from collections.abc import Sequence
@@ -42,8 +43,8 @@ def seconds(result: Result) -> float:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run and estimate. `replicas` and the uncertainty of the error, relative to it, are those of sampling programs, `points` of
-    the kinetic solver."""
+    """One row per run and estimate. `replicas` and the uncertainty of the error, relative to it, are those
+    of sampling programs, `points` of the kinetic solver."""
     rows = []
     for result in results:
         provenance = result.provenance

@@ -1,7 +1,7 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
-Shown for several distances between scatterers, as the paper states none. Below, the same on logarithmic bins, with the fronts p_0(t),
-and the fronts over lambda/et, where a stationary flux has them.
+Shown for several distances between scatterers, as the paper states none. Below, the same on logarithmic bins,
+with the fronts p_0(t), and the fronts over lambda/et, where a stationary flux has them.
 """
 
 from collections.abc import Sequence

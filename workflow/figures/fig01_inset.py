@@ -1,8 +1,8 @@
 """Fig. 1, inset: number of particles inside against the logarithm of time.
 
-Below, its slope dn/d ln t, which is the height of |p| n_t(p) above the front once the chain is filled. At early times
-the scatterers ahead of both fronts are at rest and few particles leave, so that n(t) grows faster, until the fronts have crossed the
-chain.
+Below, its slope dn/d ln t, which is the height of |p| n_t(p) above the front once the chain is filled. At
+early times the scatterers ahead of both fronts are at rest and few particles leave, so that n(t) grows
+faster, until the fronts have crossed the chain.
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,8 @@ def straight(result: Result) -> bool:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time: number, slope, and the line fitted from the first of --times on if n is straight in ln t."""
+    """One row per time: number, slope, and the line fitted from the first of --times on if n is straight
+    in ln t."""
     count = result["total_number"]
     time = count.axes["time"]
     late = time >= result["plateau"].axes["time"][0] * (1 - 1e-9)
@@ -47,8 +48,8 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def slopes(table: pd.DataFrame) -> pd.DataFrame:
-    """dn/d ln t between times that are APART steps from each other, in the row of the earlier one. The errors assume independent numbers;
-    they are upper bounds, as n(t) is positively correlated in time."""
+    """dn/d ln t between times that are APART steps from each other, in the row of the earlier one. The
+    errors assume independent numbers; they are upper bounds, as n(t) is positively correlated in time."""
     few = table.iloc[::-APART][::-1]
     step = np.diff(np.log(few.time))
     local = pd.DataFrame({"slope": np.diff(few.number) / step}, few.index[:-1])

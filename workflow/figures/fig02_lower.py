@@ -1,4 +1,5 @@
-"""Fig. 2, lower panel: particles per cell, averaged over the stated window; below, divided by a straight line through the bulk."""
+"""Fig. 2, lower panel: particles per cell, averaged over the stated window; below, divided by a straight
+line through the bulk."""
 
 from collections.abc import Sequence
 

@@ -1,7 +1,7 @@
 """Fig. 3: momentum distribution of the particles at both ends, by the kinetic equation.
 
-Below, each half over the Gaussian of its own rate and second moment, also for baths of equal temperatures. The table has also the
-case sigma = 0, whose halves are Gaussian.
+Below, each half over the Gaussian of its own rate and second moment, also for baths of equal temperatures.
+The table has also the case sigma = 0, whose halves are Gaussian.
 """
 
 from collections.abc import Sequence

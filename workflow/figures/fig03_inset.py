@@ -29,10 +29,11 @@ MARKERS = ["o", "s", "^", "D"]  # one for each N
 
 
 def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
-    """One row per N: amplitude of the deviation, its largest value over the bins, and its error for independent bins.
+    """One row per N: amplitude of the deviation, its largest value over the bins, and its error for
+    independent bins.
 
-    The deviation is projected on its mean-field shape in the shortest chain; the amplitude is the largest value of this part. Unlike the
-    largest of noisy bins it has no bias."""
+    The deviation is projected on its mean-field shape in the shortest chain; the amplitude is the largest
+    value of this part. Unlike the largest of noisy bins it has no bias."""
     mean_field = table[table.kind == MEAN_FIELD]
     shape = mean_field[mean_field.cells == mean_field.cells.min()].deviation.to_numpy()
     scale = np.abs(shape).max() / (shape @ shape)
@@ -48,7 +49,8 @@ def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
 
 
 def at_centre(table: pd.DataFrame) -> pd.Series:
-    """Mean-field deviation at p = 0 by N: the larger one of the two halves, each extrapolated by a line through its two innermost bins."""
+    """Mean-field deviation at p = 0 by N: the larger one of the two halves, each extrapolated by a line
+    through its two innermost bins."""
     centres = {}
     for cells, part in table[table.kind == MEAN_FIELD].groupby("cells"):
         inner = [part[np.sign(part.momentum) == side].sort_values("momentum", key=abs) for side in (-1, 1)]

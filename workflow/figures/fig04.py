@@ -1,7 +1,8 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
-Further panels show the distribution near p = 0, its deviation from mean field, and its jump at p = 0; the last also for equal rates at
-both ends if gamma = N. Mean field is the kinetic equation: that of the continuum at gamma = 1, that of N scatterers at gamma = N.
+Further panels show the distribution near p = 0, its deviation from mean field, and its jump at p = 0; the
+last also for equal rates at both ends if gamma = N. Mean field is the kinetic equation: that of the continuum
+at gamma = 1, that of N scatterers at gamma = N.
 """
 
 import math

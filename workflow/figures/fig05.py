@@ -22,7 +22,8 @@ MARKS = [
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
-    """Persistence for independent Gaussian momenta with the measured mean energies of particles and scatterers before collisions."""
+    """Persistence for independent Gaussian momenta with the measured mean energies of particles and
+    scatterers before collisions."""
     c = np.sqrt((1 - table.sigma) * (1 + table.sigma))
     speeds = np.sqrt(table.particle_energy / table.scatterer_energy)
     return 0.5 - np.arctan2(table.sigma * speeds, c) / np.pi

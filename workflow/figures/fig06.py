@@ -1,7 +1,8 @@
 """Fig. 6: density of waiting times for sigma = 0 and 1/2, with power laws of the fitted exponents.
 
-Below, the density times the power of tau that the paper states. At sigma = 0 momenta are only exchanged, so the density is
-that of the start: the paper's Gaussian one gives tau^-3 at long times, times exp(-lambda^2 / (2 T tau^2)) at all times.
+Below, the density times the power of tau that the paper states. At sigma = 0 momenta are only exchanged, so
+the density is that of the start: the paper's Gaussian one gives tau^-3 at long times, times exp(-lambda^2 /
+(2 T tau^2)) at all times.
 """
 
 from collections.abc import Sequence
@@ -31,7 +32,8 @@ UNSURE = 0.5  # relative error above which a symbol is open
 
 
 def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> np.ndarray:
-    """Exact density of waiting times at sigma = 0 for n to infinity, from the flux |u| exp(-u^2/2T) at u = lambda/tau."""
+    """Exact density of waiting times at sigma = 0 for n to infinity, from the flux |u| exp(-u^2/2T) at u =
+    lambda/tau."""
     square = cell_length**2 / temperature
     return square / tau**3 * np.exp(-square / (2 * tau**2))
 
@@ -43,8 +45,8 @@ def cut(result: Result) -> float:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per bin that is not empty, with the fitted power law from the cut on and, at sigma = 0, the exact density. Without errors,
-    as with one replica, the fit has equal weights."""
+    """One row per bin that is not empty, with the fitted power law from the cut on and, at sigma = 0, the
+    exact density. Without errors, as with one replica, the fit has equal weights."""
     density, options = result["density"], result.parameters
     sigma, tau = float(options["sigma"]), density.axes["tau"]
     table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
@@ -82,9 +84,9 @@ def mark_outside(axes: Axes, table: pd.DataFrame, color: str, power: float, top:
 
 
 def above_exact(table: pd.DataFrame, result: Result) -> str:
-    """A sentence on the tail at sigma = 0 over the exact density of an infinite number of particles. A momentum that a scatterer holds
-    flies again when the next particle arrives, on average after λ/(n⟨|p|⟩): to first order in 1/n slow flights are more frequent by
-    ⟨p²⟩/(n⟨|p|⟩²) = π/2n."""
+    """A sentence on the tail at sigma = 0 over the exact density of an infinite number of particles. A
+    momentum that a scatterer holds flies again when the next particle arrives, on average after
+    λ/(n⟨|p|⟩): to first order in 1/n slow flights are more frequent by ⟨p²⟩/(n⟨|p|⟩²) = π/2n."""
     tail = table[(table.tau > cut(result)) & ~table.unsure]
     if tail.empty:
         return ""

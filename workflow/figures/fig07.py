@@ -1,6 +1,8 @@
-"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with zero total momentum.
+"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with zero
+total momentum.
 
-The mean square displacement of the centre of mass is the part due to drift. Several sizes show how it falls with the number of cells.
+The mean square displacement of the centre of mass is the part due to drift. Several sizes show how it falls
+with the number of cells.
 """
 
 from collections.abc import Sequence
@@ -38,7 +40,8 @@ def cells(result: Result) -> int:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time. The error of the fraction neglects the correlation of drift and variance: it is an upper bound."""
+    """One row per time. The error of the fraction neglects the correlation of drift and variance: it is an
+    upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
     columns = result.columns("variance", "centre_of_mass")
     run = {"cells": cells(result), "zero_total_momentum": zero(result)}

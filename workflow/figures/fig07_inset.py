@@ -1,5 +1,6 @@
-"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum, with none, and with random
-directions after collisions, of the paper's footnote. The table also has other relaxation times.
+"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum,
+with none, and with random directions after collisions, of the paper's footnote. The table also has other
+relaxation times.
 """
 
 from collections.abc import Sequence
@@ -59,7 +60,8 @@ def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
 
 
 def extreme(part: pd.DataFrame, row: int) -> str:
-    """The smallest (row 0) or the largest (row -1) exponent for σ ≠ 0; at σ = 0 momenta are only exchanged."""
+    """The smallest (row 0) or the largest (row -1) exponent for σ ≠ 0; at σ = 0 momenta are only
+    exchanged."""
     return format_with_error(*part[part.sigma != 0].sort_values("alpha")[["alpha", "alpha_error"]].iloc[row])
 
 

@@ -1,8 +1,8 @@
-"""Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between neighbouring sizes,
-which are constant where a power law holds.
+"""Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between
+neighbouring sizes, which are constant where a power law holds.
 
-Line: mean field, the kinetic equation of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are
-crossed out and not used.
+Line: mean field, the kinetic equation of N scatterers. Points whose window is not stationary, or whose run
+stopped before its target, are crossed out and not used.
 """
 
 from collections.abc import Sequence
@@ -51,8 +51,8 @@ def mean_field(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, sorted by N, with the local exponent from every sound size to the next. Neighbouring exponents have a
-    size in common."""
+    """One row per run, sorted by N, with the local exponent from every sound size to the next.
+    Neighbouring exponents have a size in common."""
     rows: list[dict[str, Any]] = []
     for result in results:
         row = {"gamma": run_parameters.gamma(result), "cells": int(result.parameters["cells"])}

@@ -1,7 +1,8 @@
 """Fig. 9: energy difference after a pulse, at several times; a: gamma = N, b: gamma = 1.
 
-Shown from the paper's start, in which scatterers at rest have relaxed, and from a start in which all momenta are Gaussian; also position
-and speed of the moving peak. Faint: times at which both sides of the pulse have met opposite to it; there is no peak from then on.
+Shown from the paper's start, in which scatterers at rest have relaxed, and from a start in which all momenta
+are Gaussian; also position and speed of the moving peak. Faint: times at which both sides of the pulse have
+met opposite to it; there is no peak from then on.
 """
 
 import functools
@@ -29,8 +30,8 @@ SURE = 3  # standard errors above which a change of speed is significant
 
 
 def sound_speed(rest: Result) -> float:
-    """Speed of sound [eq. 56] in cells per time, at gamma = N, in the ring from rest without the pulse: at the temperature and with
-    the slow particles of eqs. 13 and 14 at the end of its relaxation."""
+    """Speed of sound [eq. 56] in cells per time, at gamma = N, in the ring from rest without the pulse: at
+    the temperature and with the slow particles of eqs. 13 and 14 at the end of its relaxation."""
     options = rest.parameters
     particles, length = float(options["particles-per-cell"]), float(options["cell-length"])
     before = 2 * float(options["energy"])  # temperature of the particles at the start

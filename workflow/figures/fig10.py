@@ -1,6 +1,7 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later times. Times without a moving peak, whose height is NaN, are left out.
+Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later
+times. Times without a moving peak, whose height is NaN, are left out.
 """
 
 from collections.abc import Sequence
@@ -47,7 +48,8 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def by_octave(result: Result) -> pd.DataFrame:
-    """Local exponents, with the last times and the geometric middles of the octaves over which they are fitted."""
+    """Local exponents, with the last times and the geometric middles of the octaves over which they are
+    fitted."""
     local, times = result["local_damping_exponent"], result["peak"].axes["time"]
     until = local.axes["until"]
     middle = np.sqrt(until * np.append(times[0], until[:-1]))

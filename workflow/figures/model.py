@@ -1,4 +1,5 @@
-"""World lines of the particles of a short ring and of a short chain between two baths, by a simulation of its own: a heap of arrivals.
+"""World lines of the particles of a short ring and of a short chain between two baths, by a simulation of its
+own: a heap of arrivals.
 
 A few flights: at higher temperatures, longer times or larger chains the lines cover each other.
 """
@@ -24,7 +25,8 @@ UNITS = dict.fromkeys(("start_time", "end_time"), "time") | dict.fromkeys(
 )
 UNITS |= {"particle": "1", "momentum": "momentum", "energy": "energy"}
 
-# The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones bright.
+# The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones
+# bright.
 COLOURS = LinearSegmentedColormap.from_list("energy", plt.get_cmap("plasma")(np.linspace(0, 0.88, 256)))
 BATH = 0.75  # width of a bath
 CELLS, SIGMA = 8, 0.5  # of length 1; every particle scatters at every scatterer
@@ -46,8 +48,9 @@ def begin(particle: int, time: float, x: float, p: float, ring: bool) -> Flight:
 
 
 def flights(ring: bool, seed: int) -> pd.DataFrame:
-    """Flights in the window of time of the picture, one per row. Particles and scatterers of a ring start at its temperature; a row is
-    empty, with scatterers at rest, and baths inject half-Gaussian momenta at exponential intervals [model.md, eqs. 1 and 5]."""
+    """Flights in the window of time of the picture, one per row. Particles and scatterers of a ring start
+    at its temperature; a row is empty, with scatterers at rest, and baths inject half-Gaussian momenta at
+    exponential intervals [model.md, eqs. 1 and 5]."""
     random, end = np.random.default_rng(seed), RELAXATION + TIME
     momenta = np.zeros(CELLS)
     starts: list[tuple[float, float, float]] = []  # time, position, momentum
@@ -87,7 +90,8 @@ def flights(ring: bool, seed: int) -> pd.DataFrame:
 def world_lines(
     axes: Axes, table: pd.DataFrame, shifts: Sequence[float], energies: PowerNorm
 ) -> LineCollection:
-    """Plots the flights, the fastest on top, once per shift of x. A flight across the ends of a ring is thus visible at both ends."""
+    """Plots the flights, the fastest on top, once per shift of x. A flight across the ends of a ring is
+    thus visible at both ends."""
     table = table.sort_values("energy")
     lines = np.stack([table[["start_position", "start_time"]], table[["end_position", "end_time"]]], axis=1)
     copies = [lines + np.array([shift, 0]) for shift in shifts]
@@ -100,7 +104,8 @@ def world_lines(
 
 
 def baths(axes: Axes, energies: PowerNorm) -> None:
-    """Plots each bath as a band beside the chain. Its colour is that of a particle whose energy equals the temperature."""
+    """Plots each bath as a band beside the chain. Its colour is that of a particle whose energy equals the
+    temperature."""
     for side, temperature, left in zip("LR", TEMPERATURES, (-BATH, CELLS), strict=True):
         axes.axvspan(left, left + BATH, color=COLOURS(energies(temperature)), linewidth=0, zorder=3)
         kind = "hot" if temperature == max(TEMPERATURES) else "cold"

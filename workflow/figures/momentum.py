@@ -1,8 +1,8 @@
 """Growth of heat transport with and without conserved momentum.
 
-Particles that pass a scatterer with the probability 1 - gamma/N disturb motion as reversals of the momentum of the scatterer in a fraction
-epsilon of the collisions do, but conserve momentum. Chains have a fixed spacing. Q is the integral of
-J_q = sum v (v²/2 − T) over all particles of a ring [model.md]. The table also has rings of other gases.
+A particle passes a scatterer with the probability 1 - gamma/N, which conserves momentum; in a fraction epsilon
+of the collisions the momentum of the scatterer is reversed, which does not. Chains have a fixed spacing. Q is
+the heat current of a ring, integrated over its cells and a time [eq. 58]. The table also has other gases.
 """
 
 from collections.abc import Iterable, Sequence
@@ -24,7 +24,8 @@ TITLE = "Heat transport with and without conserved momentum"
 UNITS = dict.fromkeys(("passing", "epsilon", "zeta", "mass", "growth"), "1")
 
 CURVE = ["passing", "epsilon"]  # columns that identify a curve of chains
-# Markers and colours where momentum is conserved, by ascending probability of passing, and where it is not, by descending ε.
+# Markers and colours where momentum is conserved, by ascending probability of passing, and where it is not,
+# by descending ε.
 CONSERVED = [("o", style.BLACK), ("s", style.BLUE), ("D", style.SKY)]
 BROKEN = [("v", style.VERMILLION), ("^", style.ORANGE)]
 

@@ -1,8 +1,9 @@
-"""Numerical stability: drift of energy and momentum against the number of collisions and towards |σ| = 1, and persistence over thirty
-orders of magnitude of the spacing.
+"""Numerical stability: drift of energy and momentum against the number of collisions and towards |σ| = 1, and
+persistence over thirty orders of magnitude of the spacing.
 
-The drifts are those of closed chains, which conserve both: relative changes from the start to the end of a replica, mean of the
-magnitudes over replicas. Independent rounding errors grow as the square root of the number of collisions.
+The drifts are those of closed chains, which conserve both: relative changes from the start to the end of a
+replica, mean of the magnitudes over replicas. Independent rounding errors grow as the square root of the
+number of collisions.
 """
 
 from collections.abc import Sequence

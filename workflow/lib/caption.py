@@ -34,7 +34,8 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def format_number(value: float) -> str:
-    """The value with four digits, or as a fraction of up to three digits over 2, 3 or 9, and with a typographic minus sign."""
+    """The value with four digits, or as a fraction of up to three digits over 2, 3 or 9, and with a
+    typographic minus sign."""
     fraction = Fraction(value).limit_denominator(10)
     exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
     if exact and fraction.denominator in (2, 3, 9) and abs(fraction.numerator) < 1000:
@@ -51,7 +52,8 @@ def listed(texts: Iterable[str]) -> str:
 
 
 def parameters(results: Sequence[Result], *names: str) -> str:
-    """The named parameters that the results have, with all their values: `N = 11, σ = −1/2 and 1/2`; by the name of the option without a symbol."""
+    """The named parameters that the results have, with all their values: `N = 11, σ = −1/2 and 1/2`; by
+    the name of the option without a symbol."""
     texts = []
     for name in names:
         values = {result.parameters[name] for result in results if name in result.parameters}
@@ -65,7 +67,8 @@ def parameters(results: Sequence[Result], *names: str) -> str:
 
 
 def rule(result: Result) -> str:
-    """The collision rule with the values of its options, which are named after it: `elastic`, `random directions`, `reversal (0.03)`."""
+    """The collision rule with the values of its options, which are named after it: `elastic`, `random
+    directions`, `reversal (0.03)`."""
     name = str(result.parameters["rule"])
     own = [
         value
@@ -77,15 +80,16 @@ def rule(result: Result) -> str:
 
 
 def with_rules(caption: str, results: Sequence[Result]) -> str:
-    """The caption, with a sentence on the collision rules of the panel's own results that it does not name. Elastic collisions, the paper's, need no name."""
+    """The caption, with a sentence on the collision rules of the panel's own results that it does not
+    name. Elastic collisions, the paper's, need no name."""
     rules = dict.fromkeys(rule(result) for result in results if "rule" in result.parameters)
     missing = [name for name in rules if name != "elastic" and name.partition(" (")[0] not in caption]
     return f"{caption} Collision rule: {listed(missing)}." if missing else caption
 
 
 def with_doubts(caption: str, results: Sequence[Result]) -> str:
-    """The caption, with a sentence on results that are not stationary, and one on those that were not tested. Panels with a point for each
-    also cross them out."""
+    """The caption, with a sentence on results that are not stationary, and one on those that were not
+    tested. Panels with a point for each also cross them out."""
     for doubt, text in DOUBTS.items():
         runs = [result.run for result in results if doubt in result.doubts]
         if runs:
@@ -94,7 +98,8 @@ def with_doubts(caption: str, results: Sequence[Result]) -> str:
 
 
 def baths(result: Result) -> str:
-    """`the paper's baths`, or others as `baths ν = 100, T = 100 and 120`, left and right; equal values are given once."""
+    """`the paper's baths`, or others as `baths ν = 100, T = 100 and 120`, left and right; equal values are
+    given once."""
     values = [float(result.parameters[name]) for name in BATHS]
     if np.allclose(values, PAPERS_BATHS):
         return "the paper's baths"

@@ -1,7 +1,7 @@
 """Units of the columns of a table, written in the line `# units: ` of its CSV.
 
-A column has the units of the quantity, error (`kappa_error`), axis or option that it is named after. A script declares the units
-of its other columns.
+A column has the units of the quantity, error (`kappa_error`), axis or option that it is named after. A script
+declares the units of its other columns.
 """
 
 import json
@@ -37,7 +37,8 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
 
 
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
-    """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid units."""
+    """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid
+    units."""
     numbers = table.to_csv(index=False, float_format="%.12g", lineterminator="\n")
     return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{numbers}"
 

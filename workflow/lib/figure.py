@@ -1,8 +1,9 @@
 """What the figure scripts share.
 
-A script, FIGURE.py in workflow/figures, defines draw(results), and TITLE, or title(results) where it differs between panels. `@plots`
-before draw names the plotted series. UNITS has the units of columns that are not named after a quantity, an axis or an option; they also
-hold for the columns of their errors. Anything else is in workflow/lib and workflow/physics, or named by `reads` of the panel.
+A script, FIGURE.py in workflow/figures, defines draw(results), and TITLE, or title(results) where it differs
+between panels. `@plots` before draw names the plotted series. UNITS has the units of columns that are not
+named after a quantity, an axis or an option; they also hold for the columns of their errors. Anything else is
+in workflow/lib and workflow/physics, or named by `reads` of the panel.
 """
 
 import inspect
@@ -26,13 +27,15 @@ Draw = Callable[[Sequence[Result]], Parts]
 
 @dataclass(frozen=True)
 class Plot:
-    """draw() of a script that plots series by their names. It names others of the panel in the caption and on stderr."""
+    """draw() of a script that plots series by their names. It names others of the panel in the caption and
+    on stderr."""
 
     function: Draw
     series: tuple[str, ...]
 
     def shown(self, results: Iterable[Result]) -> list[Result]:
-        """The results of these series; all if none of them is given, as by a panel of one's own with this script."""
+        """The results of these series; all if none of them is given, as by a panel of one's own with this
+        script."""
         given = [*results]
         return [result for result in given if result.series in self.series] or given * bool(self.series)
 
@@ -51,7 +54,8 @@ class Plot:
 
 
 def plots(series: str) -> Callable[[Draw], Plot]:
-    """Decorator of draw(), which then takes the results of these series only. series: names, separated by blanks."""
+    """Decorator of draw(), which then takes the results of these series only. series: names, separated by
+    blanks."""
     return lambda draw: Plot(draw, tuple(series.split()))
 
 

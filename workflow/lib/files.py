@@ -6,7 +6,8 @@ from pathlib import Path
 
 
 def write_atomically(contents: Mapping[Path, bytes]) -> None:
-    """Writes all files under temporary names, then renames them in order. If the disk is full, the old files are kept. Raises OSError."""
+    """Writes all files under temporary names, then renames them in order. If the disk is full, the old
+    files are kept. Raises OSError."""
     files = {path: path.with_name(f"{path.name}.{os.getpid()}.tmp") for path in contents}
     try:
         for path, file in files.items():

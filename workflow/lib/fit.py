@@ -10,7 +10,7 @@ LEVEL = 1e-2  # p-value below which a law is rejected
 
 @dataclass(frozen=True)
 class Line:
-    """y = intercept + slope x, with the error of the slope, chi^2 and its degrees of dof."""
+    """y = intercept + slope x, with the error of the slope, chi^2 and its degrees of freedom."""
 
     intercept: float
     slope: float
@@ -24,7 +24,7 @@ class Line:
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """y = amplitude x^exponent, with the error of the exponent, chi^2 and its degrees of dof."""
+    """y = amplitude x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
 
     amplitude: float
     exponent: float
@@ -45,7 +45,7 @@ class PowerLaw:
 
 
 def p_value(chi_square: float, dof: int) -> float:
-    """p-value of chi^2; nan without a degree of dof."""
+    """p-value of chi^2; nan without a degree of freedom."""
     # Imported here: most panels need no p-value, and the import takes a tenth of their time.
     from scipy.special import chdtrc  # noqa: PLC0415
 
@@ -57,8 +57,9 @@ def rejected(chi_square: float, dof: int) -> bool:
 
 
 def format_with_error(value: float, error: float, systematic: float = 0) -> str:
-    """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above; `unknown` for NaN.
-    The bound on the systematic error follows in its own brackets, unless it is below the last digit: 0.299(8)(52)."""
+    """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above;
+    `unknown` for NaN. The bound on the systematic error follows in its own brackets, unless it is below
+    the last digit: 0.299(8)(52)."""
     if np.isnan(value):
         return "unknown"
     if not (np.isfinite(error) and error > 0):

@@ -26,17 +26,20 @@ def sha256(content: bytes) -> str:
 
 
 def result_identity(program: str, words: str, sources: str) -> str:
-    """Identity of a result. words: options that determine it, as on the command line; sources: their hash, from source_hash()."""
+    """Identity of a result. words: options that determine it, as on the command line; sources: their hash,
+    from source_hash()."""
     return identity(program, words, sources)
 
 
 def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) -> str:
-    """Identity of a panel. results: paths of the plotted results, without their folders; sources: sources_of_panel()."""
+    """Identity of a panel. results: paths of the plotted results, without their folders; sources:
+    sources_of_panel()."""
     return identity(panel, ["/".join(Path(path).parts[-2:]) for path in results], sources)
 
 
 def sources_of_panel(script: str, reads: Iterable[str] = ()) -> dict[str, str]:
-    """Hashes of the script of a panel, of lib and physics, of the locked packages, and of the files that it reads. Raises OSError."""
+    """Hashes of the script of a panel, of lib and physics, of the locked packages, and of the files that
+    it reads. Raises OSError."""
     return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED, *reads)}
 
 
@@ -65,7 +68,8 @@ def stated(content: bytes) -> tuple[str, str, str] | None:
 
 @cache
 def content_hash(path: str, root: Path = ROOT) -> str:
-    """sha256 of a file, or of names and contents of the files in a folder but hidden ones, backups and compiled modules. Raises OSError."""
+    """sha256 of a file, or of names and contents of the files in a folder but hidden ones, backups and
+    compiled modules. Raises OSError."""
     if not (root / path).is_dir():
         return sha256((root / path).read_bytes())
     names = sorted(file.relative_to(root).as_posix() for file in (root / path).rglob("*") if file.is_file())

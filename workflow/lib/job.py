@@ -7,8 +7,8 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Job:
-    """A panel to be rendered. stem: FOLDER/QUALITY/PANEL; data: paths of the results; reads: other files that the script reads; identity:
-    the planned one, "" if none is."""
+    """A panel to be rendered. stem: FOLDER/QUALITY/PANEL; data: paths of the results; reads: other files
+    that the script reads; identity: the planned one, "" if none is."""
 
     script: str
     stem: str

@@ -51,8 +51,8 @@ class FormatError(ValueError):
 class Quantity:
     """Estimate with errors over axes, which map names to coordinates in the order of the dimensions.
 
-    A measured quantity has a standard error and a count of replicas, a computed one a discretisation error; the others are None.
-    control_variates: whether they were used, None if the quantity has none.
+    A measured quantity has a standard error and a count of replicas, a computed one a discretisation error;
+    the others are None. control_variates: whether they were used, None if the quantity has none.
     """
 
     mean: np.ndarray
@@ -147,7 +147,8 @@ class Result:
 
     @property
     def doubts(self) -> list[str]:
-        """Reasons to doubt the numbers: a missed target error, a target quantity that is NaN, a window that is not stationary or was not tested."""
+        """Reasons to doubt the numbers: a missed target error, a target quantity that is NaN, a window
+        that is not stationary or was not tested."""
         reasons = []
         target = self.quantities.get(self.provenance.get("target_quantity", ""))
         if target is not None and np.isnan(target.mean).any():
@@ -165,7 +166,8 @@ class Result:
 
     @property
     def usable(self) -> bool:
-        """Whether the run was stationary and did not miss its target error. Raises FormatError without a test of stationarity."""
+        """Whether the run was stationary and did not miss its target error. Raises FormatError without a
+        test of stationarity."""
         return bool(self["stationary"].mean.size and not self.doubts)
 
 
@@ -189,7 +191,8 @@ def load_provenance(path: Path | str) -> dict[str, Any]:
 
 
 def digest(nodes: dict[str, h5py.Group | h5py.Dataset]) -> str:
-    """CRC-32 of path and little-endian values of all datasets and attributes, in ascending order of the paths. nodes: all objects of a file."""
+    """CRC-32 of path and little-endian values of all datasets and attributes, in ascending order of the
+    paths. nodes: all objects of a file."""
     values: dict[str, bytes] = {}
     for path, node in nodes.items():
         if isinstance(node, h5py.Dataset):
@@ -216,8 +219,9 @@ def nodes_of(file: h5py.File) -> dict[str, h5py.Group | h5py.Dataset]:
 
 @contextmanager
 def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dict[str, h5py.Dataset]]]:
-    """Opens a result file after checking identity and checksum. HDF5 gets its bytes: it refuses a file that the same process has open with
-    another kind of lock. Results are written under another name and renamed, and need no lock."""
+    """Opens a result file after checking identity and checksum. HDF5 gets its bytes: it refuses a file
+    that the same process has open with another kind of lock. Results are written under another name and
+    renamed, and need no lock."""
     try:
         with h5py.File(io.BytesIO(Path(path).read_bytes())) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}

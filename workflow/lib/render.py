@@ -1,7 +1,7 @@
 """Renders panels: loads the results of each, calls its script and saves what that returns.
 
-`python -m workflow.lib.render JOB ...`, each a Job as JSON. Every panel is rendered by a process of its own, so that one that fails takes no
-other with it; all are forks of this one, which has imported the packages.
+`python -m workflow.lib.render JOB ...`, each a Job as JSON. Every panel is rendered by a process of its own,
+so that one that fails takes no other with it; all are forks of this one, which has imported the packages.
 """
 
 import io
@@ -42,7 +42,8 @@ class EditedError(ValueError):
 
 
 def render(job: Job) -> None:
-    """Writes the files of a panel. Raises FormatError, OSError, TheoryError, UndeclaredError, UnitsError, EditedError."""
+    """Writes the files of a panel. Raises FormatError, OSError, TheoryError, UndeclaredError, UnitsError,
+    EditedError."""
     sources = sources_of_panel(job.script, job.reads)
     identity = panel_identity(job.panel, job.data, sources)
     if job.identity not in (identity, ""):
@@ -121,7 +122,8 @@ def failure(job: Job) -> tuple[str, str]:
 
 
 def warm_up() -> None:
-    """Draws a text in every format: what matplotlib loads for it, a fifth of the time of a panel, is then shared by all forks."""
+    """Draws a text in every format: what matplotlib loads for it, a fifth of the time of a panel, is then
+    shared by all forks."""
     style.apply()
     figure, axes = plt.subplots()
     axes.set_title("$x^2_1$")

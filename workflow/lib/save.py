@@ -1,7 +1,8 @@
 """Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and their record, PANEL.IDENTITY.json.
 
-Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute path. Each file has a
-line with panel, quality and identity. A panel has one record, which is written last: files without it are stale.
+Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute
+path. Each file has a line with panel, quality and identity. A panel has one record, which is written last:
+files without it are stale.
 """
 
 import io
@@ -77,8 +78,8 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
 
 
 def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], record: dict[str, Any]) -> None:
-    """Writes the files of a panel or report by kind, and their record. The record of a former identity moves to FORMER, where provenance
-    finds it. Raises OSError."""
+    """Writes the files of a panel or report by kind, and their record. The record of a former identity
+    moves to FORMER, where provenance finds it. Raises OSError."""
     record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
     text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
     path = stem.with_name(f"{stem.name}.{identity}.json")
@@ -100,7 +101,8 @@ def commit() -> str:
 
 
 def renderer() -> str:
-    """What the bytes of a picture depend on besides its parents: Python, kind of processor, versions of packages."""
+    """What the bytes of a picture depend on besides its parents: Python, kind of processor, versions of
+    packages."""
     versions = ", ".join(f"{name} {version(name)}" for name in RENDERING)
     return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
 

@@ -86,7 +86,8 @@ _SETTINGS: dict[RcKeyType, Any] = {
 
 
 def apply() -> None:
-    """Applies the style, independent of matplotlibrc, and of the fonts of the system: only those of matplotlib are used."""
+    """Applies the style, independent of matplotlibrc, and of the fonts of the system: only those of
+    matplotlib are used."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
     fonts = font_manager.fontManager
@@ -107,8 +108,8 @@ def band(axes: Axes, x: ArrayLike, value: ArrayLike, error: ArrayLike, color: st
 
 
 def stacked(*ratios: float, height: float, width: float = 1) -> tuple[Figure, list[Axes]]:
-    """Lettered panels, one below the other, with one x axis. ratios: of their heights; height, width: of the whole, in HEIGHT and
-    COLUMN."""
+    """Lettered panels, one below the other, with one x axis. ratios: of their heights; height, width: of
+    the whole, in HEIGHT and COLUMN."""
     figure, panels = plt.subplots(
         len(ratios), sharex=True, figsize=(width * COLUMN, height * HEIGHT), height_ratios=ratios
     )
@@ -118,8 +119,8 @@ def stacked(*ratios: float, height: float, width: float = 1) -> tuple[Figure, li
 
 
 def letter(*panels: Axes, lift: float | None = None, first: int = 0) -> None:
-    """Labels panels (a), (b), ... above the upper left corner. lift: distance in points, needed if one has tick labels on top; first:
-    number of panels that are labelled already."""
+    """Labels panels (a), (b), ... above the upper left corner. lift: distance in points, needed if one has
+    tick labels on top; first: number of panels that are labelled already."""
     for character, axes in zip(ascii_lowercase[first:], panels, strict=False):
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 

@@ -14,8 +14,9 @@ def persistence_law(sigma: np.ndarray) -> np.ndarray:
 
 
 def quasi_stationary(particles: float, start: float, length: float, time: ArrayLike) -> np.ndarray:
-    """Temperature T and logarithm Λ of a chain from scatterers at rest, at the given times: T solves eq. 14, in which Λ [eq. 13] depends
-    on T. particles: per cell; start: temperature of the particles at the start; length: of a cell."""
+    """Temperature T and logarithm Λ of a chain from scatterers at rest, at the given times: T solves eq.
+    14, in which Λ [eq. 13] depends on T. particles: per cell; start: temperature of the particles at the
+    start; length: of a cell."""
     states = []
     for moment in np.atleast_1d(time):
         temperature = start

@@ -18,12 +18,14 @@ def at(quantity: Quantity, x: float) -> np.ndarray:
 
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
-    """Values by momentum for the outgoing particles: from the first position if p < 0, from the last one if p > 0."""
+    """Values by momentum for the outgoing particles: from the first position if p < 0, from the last one
+    if p > 0."""
     return np.where(momentum < 0, values[0], values[-1])
 
 
 def at_zero(inner: ArrayLike) -> float:
-    """Value at p = 0 of the line through two bins of one half, the inner one first, as `momentum_flux` extrapolates its jump."""
+    """Value at p = 0 of the line through two bins of one half, the inner one first, as `momentum_flux`
+    extrapolates its jump."""
     near, far = np.asarray(inner, dtype=float)
     return float(1.5 * near - 0.5 * far)
 

@@ -19,8 +19,8 @@ def chain(result: Result) -> Chain:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per gas and time. <Q²>, and its exponent over the octave that begins at this time, are each taken from the ring
-    in which their error is smallest."""
+    """One row per gas and time. <Q²>, and its exponent over the octave that begins at this time, are each
+    taken from the ring in which their error is smallest."""
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)

@@ -1,4 +1,5 @@
-"""Setting of a run, from the parameters of its result: gamma, spacing of the scatterers, rates of the baths."""
+"""Setting of a run, from the parameters of its result: gamma, spacing of the scatterers, rates of the
+baths."""
 
 from collections.abc import Sequence
 

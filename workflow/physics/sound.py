@@ -1,7 +1,7 @@
 """Sound in the chain at γ = N by fluctuating hydrodynamics [model.md, section 7].
 
-Lengths, not cells, unless a name says so: c is a length over a time. Times and momenta have the units of the model, so that a velocity
-is a momentum.
+Lengths, not cells, unless a name says so: c is a length over a time. Times and momenta have the units of the
+model, so that a velocity is a momentum.
 """
 
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ from math import erf, pi, sqrt
 
 @dataclass(frozen=True)
 class Chain:
-    """A closed chain in equilibrium: ζ = zλ, where F(p) = z exp(-p²/2T) is the flux, the mass M of the scatterers, T and λ. Validity: many
-    slow particles."""
+    """A closed chain in equilibrium: ζ = zλ, where F(p) = z exp(-p²/2T) is the flux, the mass M of the
+    scatterers, T and λ. Validity: many slow particles."""
 
     zeta: float
     mass: float

@@ -103,7 +103,8 @@ def panel_names(folder: Path = CONFIGURATION) -> list[str]:
 
 
 def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
-    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError, BuildError before the programs are compiled."""
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError, BuildError before
+    the programs are compiled."""
     programs: dict[str, Schema] = options_of_programs()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
@@ -165,7 +166,8 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Schema of quality/*.yaml: the effort of all series of a panel with replicas, and that of single series."""
+    """Schema of quality/*.yaml: the effort of all series of a panel with replicas, and that of single
+    series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT_OPTIONS}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
@@ -195,7 +197,8 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
 
 
 def _of_size(name: str, option: Schema) -> Schema:
-    """Schema of an option in the configuration, where times and gamma may be polynomials in N, which the plan evaluates."""
+    """Schema of an option in the configuration, where times and gamma may be polynomials in N, which the
+    plan evaluates."""
     polynomial = {"type": "string", "pattern": f"^{POLYNOMIAL}$"}
     of_size = name.endswith("-time") or name == "gamma"
     return {"if": polynomial, "then": True, "else": option} if of_size else option

@@ -1,4 +1,5 @@
-"""Options and quantities that the programs declare: build/describe/*.json, which the build writes (PROGRAM --describe)."""
+"""Options and quantities that the programs declare: build/describe/*.json, which the build writes (PROGRAM
+--describe)."""
 
 import json
 from functools import cache
@@ -17,7 +18,8 @@ DESCRIPTIONS = ROOT / "build/describe"
 
 @cache
 def described() -> dict[str, dict[str, Any]]:
-    """What each present program prints with --describe; docs/format.md has the keys. Raises BuildError before the first build."""
+    """What each present program prints with --describe; docs/format.md has the keys. Raises BuildError
+    before the first build."""
     paths = {name: DESCRIPTIONS / f"{name}.json" for name in programs()}
     built = {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
     if not built:
@@ -29,7 +31,8 @@ def described() -> dict[str, dict[str, Any]]:
 
 @cache
 def options_of_programs() -> dict[str, dict[str, dict[str, Any]]]:
-    """JSON Schema of every option that determines a result, by program and name. Raises BuildError before the first build."""
+    """JSON Schema of every option that determines a result, by program and name. Raises BuildError before
+    the first build."""
     return {
         name: {
             option: schema

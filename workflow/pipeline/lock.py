@@ -13,8 +13,9 @@ def lock_products() -> None:
 
 @cache
 def lock(folder: Path) -> None:
-    """Keeps other commands from locking a folder until this process ends. Called again, it does nothing: the entry locks before it
-    compiles; the Snakefile also locks, for direct calls of Snakemake. Raises OSError."""
+    """Keeps other commands from locking a folder until this process ends. Called again, it does nothing:
+    the entry locks before it compiles; the Snakefile also locks, for direct calls of Snakemake. Raises
+    OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     file = os.open(folder / "lock", os.O_RDWR | os.O_CREAT)
     try:

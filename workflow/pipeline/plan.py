@@ -81,8 +81,9 @@ class Run:
 
 @dataclass(frozen=True)
 class Panel:
-    """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of paper.yaml that the quality
-    replaces, as `cells of rare`; reads: files that the script reads; beyond: not of the paper, and made for the report only."""
+    """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of
+    paper.yaml that the quality replaces, as `cells of rare`; reads: files that the script reads; beyond:
+    not of the paper, and made for the report only."""
 
     name: str
     script: str
@@ -98,8 +99,8 @@ class Panel:
 
 @dataclass(frozen=True)
 class Selection:
-    """A quality with the effort of the command line, by the name of its folders of data and figures: `standard`, or
-    `standard_seed=7_replicas=200`."""
+    """A quality with the effort of the command line, by the name of its folders of data and figures:
+    `standard`, or `standard_seed=7_replicas=200`."""
 
     name: str
     quality: str
@@ -136,8 +137,8 @@ class Selection:
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
     def with_effort(self, panel: str, run: str, options: Options, scale: float | None) -> Options:
-        """Options of a replicated run with its effort as options of the program, and its seed. scale: reference value of
-        the error where the target may be 0."""
+        """Options of a replicated run with its effort as options of the program, and its seed. scale:
+        reference value of the error where the target may be 0."""
         own = {key: value for key, value in options.items() if key not in ("replicas", "error")}
         replicas, error = options.get("replicas"), options.get("error")
         if self.replicas is not None or self.error is not None:
@@ -243,7 +244,8 @@ def stem_of(name: str, quality: str) -> str:
 
 
 def record_of(plan: dict[str, Panel], name: str, quality: str) -> str:
-    """Path of the record of a panel or of the report, which has its present identity. Raises ConfigurationError, OSError."""
+    """Path of the record of a panel or of the report, which has its present identity. Raises
+    ConfigurationError, OSError."""
     return f"{stem_of(name, quality)}.{identity_of(plan, name, quality)}.json"
 
 

@@ -1,4 +1,5 @@
-"""Option values in paper.yaml that depend on the number of cells: a sum of numbers, each alone or followed by N or N^2, as 50+0.001N^2.
+"""Option values in paper.yaml that depend on the number of cells: a sum of numbers, each alone or followed by
+N or N^2, as 50+0.001N^2.
 
 Programs get numbers.
 """

@@ -23,7 +23,8 @@ class ProgramError(ValueError):
 
 
 def is_built(program: str) -> bool:
-    """Whether a program starts and states the hash of its present sources. Neither times nor folders decide."""
+    """Whether a program starts and states the hash of its present sources. Neither times nor folders
+    decide."""
     try:
         done = subprocess.run([PROGRAMS / program, "--version"], capture_output=True, text=True, check=False)
     except OSError:
@@ -40,8 +41,8 @@ def require_built(program: str) -> None:
 
 
 def build() -> None:
-    """Compiles the programs unless all are built and described. CXX may choose another compiler, so that the build is checked in any case.
-    Raises CalledProcessError."""
+    """Compiles the programs unless all are built and described. CXX may choose another compiler, so that
+    the build is checked in any case. Raises CalledProcessError."""
     missing = [
         name for name in programs() if not (is_built(name) and (DESCRIPTIONS / f"{name}.json").exists())
     ]
@@ -65,14 +66,16 @@ def command_line(run: Run, threads: int = 1) -> list[str]:
 
 
 def execute(program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS) -> str:
-    """Executes a program, which writes its result to `output`, and returns its messages. Raises ProgramError with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
+    """Executes a program, which writes its result to `output`, and returns its messages. Raises
+    ProgramError with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
     command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
     if shutil.which(
         "setpriv"
     ):  # Linux only: if this process dies, the program writes its checkpoint and exits
         command = ["setpriv", "--pdeathsig", "TERM", *command]
     lines: list[str] = []
-    # In a session of its own the program does not receive the Ctrl-C of the terminal, only the one signal sent below.
+    # In a session of its own the program does not receive the Ctrl-C of the terminal, only the one signal
+    # sent below.
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
         assert running.stderr
         try:

@@ -20,7 +20,8 @@ def read_record(path: Path | str) -> dict[str, Any]:
 
 
 def doubtful(plan: dict[str, Panel], names: Iterable[str], quality: str) -> dict[str, list[str]]:
-    """Reasons to doubt a result, by its path, of the results that panels with a present record plot. Raises ConfigurationError, OSError."""
+    """Reasons to doubt a result, by its path, of the results that panels with a present record plot.
+    Raises ConfigurationError, OSError."""
     found: dict[str, list[str]] = {}
     for name in names:
         found |= read_record(record_of(plan, name, quality)).get("doubts", {})

@@ -1,7 +1,8 @@
 """Hashes of the sources of the programs.
 
-CMake runs this module with the system's Python (3.9 or later, standard library only) to write the hash of its sources into every
-program: `sources.py CPP FOLDER` writes FOLDER/PROGRAM.cpp from FOLDER/template, if it changes, and FOLDER/sources.d.
+CMake runs this module with the system's Python (3.9 or later, standard library only) to write the hash of its
+sources into every program: `sources.py CPP FOLDER` writes FOLDER/PROGRAM.cpp from FOLDER/template, if it
+changes, and FOLDER/sources.d.
 """
 
 from __future__ import annotations
@@ -28,8 +29,9 @@ def sha256(text: str) -> str:
 
 
 def source_hash(program: str, cpp: Path = CPP) -> str:
-    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp without other observables and,
-    but for boltzmann, the solver of the kinetic equation; and of the numeric flags. Raises OSError."""
+    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp
+    without other observables and, but for boltzmann, the solver of the kinetic equation; and of the
+    numeric flags. Raises OSError."""
     lines = [
         f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if owner(path) in ("", program)
     ]

@@ -31,7 +31,8 @@ def acceptance(band: Band) -> str:
 
 
 def value(number: Estimate) -> str:
-    """Number with its standard error and the bound on its systematic error in units of the last digit; ± the bound without a standard error."""
+    """Number with its standard error and the bound on its systematic error in units of the last digit; ±
+    the bound without a standard error."""
     if not number.error and abs(number.value) < number.systematic:
         return f"0 to rounding{BOUND}{short(number.systematic)}"
     size = max(abs(number.value), number.error, number.systematic)

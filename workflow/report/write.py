@@ -1,5 +1,5 @@
-"""Writes the report of a quality, figures/QUALITY/report.html with all pictures in it, or the release's page docs/gallery/README.md with
-pictures beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
+"""Writes the report of a quality, figures/QUALITY/report.html with all pictures in it, or the release's page
+docs/gallery/README.md with pictures beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
 """
 
 import argparse
@@ -102,7 +102,8 @@ def of_release(root: Path) -> dict[tuple[str, str], tuple[str, str]]:
 
 
 def shown(judgement: Judgement) -> dict[str, Any]:
-    """A row of the table of claims with its verdict, for the template. least, most: its smallest and largest number."""
+    """A row of the table of claims with its verdict, for the template. least, most: its smallest and
+    largest number."""
     verdict = judgement.verdict
     numbers = sorted(verdict.numbers, key=lambda number: number.value)
     listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.shown]

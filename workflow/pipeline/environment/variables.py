@@ -1,4 +1,5 @@
-"""Environment of all commands: variables of the caller's shell change no result, however Snakemake is started; its signals."""
+"""Environment of all commands: variables of the caller's shell change no result, however Snakemake is
+started; its signals."""
 
 import os
 import signal
@@ -32,8 +33,8 @@ def clean() -> None:
 
 
 def stop_at_first_signal() -> None:
-    """Ignores a second Ctrl-C or SIGTERM, as `timeout` sends it, which would end in a traceback. Snakemake's own handler of SIGTERM waits for
-    a lock that the interrupted code may hold."""
+    """Ignores a second Ctrl-C or SIGTERM, as `timeout` sends it, which would end in a traceback.
+    Snakemake's own handler of SIGTERM waits for a lock that the interrupted code may hold."""
     signals = (signal.SIGINT, signal.SIGTERM)
 
     def stop(*_: object) -> None:

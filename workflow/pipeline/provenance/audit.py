@@ -1,9 +1,11 @@
-"""Checks results and figures against the present options, sources and packages (`make audit`; `make status` renders nothing).
+"""Checks results and figures against the present options, sources and packages: `make audit`, and without
+rendering `make status`.
 
-Results and figures must be unmodified and current, and a figure that is rendered again must have equal bytes. A panel without figure
-files is not made: some of its results may exist, as other panels plot them.
+Results and figures must be unmodified and current, and a figure that is rendered again must have equal bytes.
+A panel without figure files is not made: some of its results may exist, as other panels plot them.
 
-Exit status: 0, 1 if something is stale, edited or missing, 3 if something could not be checked or nothing is made.
+Exit status: 0, 1 if something is stale, edited or missing, 3 if something could not be checked or nothing is
+made.
 """
 
 import argparse
@@ -164,12 +166,14 @@ class Product:
 
 
 def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) -> list[Fault]:
-    """Faults of the figures of panels and of the results that they plot. A figure whose results do not hold is not rendered."""
+    """Faults of the figures of panels and of the results that they plot. A figure whose results do not
+    hold is not rendered."""
     runs, products = runs_of(plan, names, quality), [Product(plan, name, quality) for name in names]
     plotted = {
         path: digest for product in products for path, digest in product.record.get("parents", {}).items()
     }
-    # A result that has the bytes of when it was plotted was checked then; to check all values takes ten times as long.
+    # A result that has the bytes of when it was plotted was checked then; to check all values takes ten times
+    # as long.
     unknown = {path: run for path, run in runs.items() if plotted.get(path) != hash_if_readable(path)}
     results = {path: fault for path, run in unknown.items() if (fault := fault_of_result(path, run))}
     with ThreadPoolExecutor(os.cpu_count()) as threads:

@@ -14,19 +14,20 @@ from workflow.lib.load import FormatError, Quantity, Result, load
 from workflow.pipeline.plan import Selection, data_path, load_plan, runs_of
 
 SIGNIFICANCE = 1e-4  # p-value of the largest difference in a result
-COMPUTED = 1e6  # degrees of dof of a discretisation error
-FEW = 16  # degrees of dof, below which errors, especially of fitted positions, are too uncertain for a judgement
+COMPUTED = 1e6  # degrees of freedom of a discretisation error
+FEW = 16  # degrees of freedom, below which errors, especially of fitted positions, are too uncertain for a judgement
 
 
 def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Standard error of the difference between two estimates, and its degrees of dof. shared: the fewer replicas are contained in
-    the more; for equal replicas, the error of one estimate."""
+    """Standard error of the difference between two estimates, and its degrees of freedom. shared: with
+    one seed the smaller run is a subset of the larger; for equal numbers, the error of one estimate."""
     if a.count is None or b.count is None:
         return np.asarray(a.discretisation_error), np.full(a.mean.shape, COMPUTED)
     few, many = sorted((a, b), key=lambda quantity: quantity.replicas.max(initial=0))
     if not shared:
         return np.hypot(few.error, many.error), 2.0 * (few.replicas - 1.0)
-    # s² (1/m - 1/n) for means of m of n replicas; more where control variates work only with the larger number.
+    # s² (1/m - 1/n) for means of m of n replicas; more where control variates work only with the larger
+    # number.
     with np.errstate(divide="ignore", invalid="ignore"):
         variance = many.error**2 * (many.replicas / few.replicas - 1)
     variance = np.maximum(variance, few.error**2 - many.error**2)
@@ -34,8 +35,8 @@ def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndar
 
 
 class Difference(NamedTuple):
-    """Least probable difference between two results of a run. p: its p-value by Student's distribution with Bonferroni's correction;
-    deviation: its size in standard errors."""
+    """Least probable difference between two results of a run. p: its p-value by Student's distribution
+    with Bonferroni's correction; deviation: its size in standard errors."""
 
     p: float
     deviation: float

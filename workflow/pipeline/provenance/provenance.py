@@ -1,7 +1,7 @@
 """Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
 
-The first line states whether it is unmodified, and fresh here. Exit status: 0 if the file is unmodified, 1 if it is edited or states
-nothing, 2 if there is no such file, 3 if its record is not here.
+The first line states whether it is unmodified, and fresh here. Exit status: 0 if the file is unmodified, 1 if
+it is edited or states nothing, 2 if there is no such file, 3 if its record is not here.
 """
 
 import argparse

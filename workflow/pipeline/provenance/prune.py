@@ -1,7 +1,7 @@
 """Removes the results and figures of a quality that no plan names; DRY=yes lists them.
 
-Only files whose names this project gives are removed: RUN.IDENTITY.* in data, and figures of former panels. Tracked files, the results of
-the release, stay.
+Only files whose names this project gives are removed: RUN.IDENTITY.* in data, and figures of former panels.
+Tracked files, the results of the release, stay.
 """
 
 import argparse
