@@ -53,7 +53,6 @@ KineticFields::KineticFields(const KineticProblem& problem, const KineticSolutio
 
   particle_current = currents.particles.mean();
   energy_current = currents.energy.mean();
-  momentum_flux = currents.momentum.mean();
   current_spread = spread(problem, currents);
 
   particle_temperature = arrivals.whole(2).array() / arrivals.whole(0).array();

@@ -24,7 +24,7 @@ struct KineticFields {
   Eigen::MatrixXd flux;               // F, mean over a bin
   Eigen::MatrixXd flux_density;       // F at the middle of a bin
   Eigen::MatrixXd scatterer_density;  // g(P)
-  double particle_current, energy_current, momentum_flux;
+  double particle_current, energy_current;
   double current_spread;  // largest deviation of a current over x, relative to the injected one [eq. 40]
   Eigen::RowVectorXd scatterer_temperature, particle_temperature;  // [eq. 39]
   double conductivity;  // of a chain [eq. 28]; NaN without a difference of temperature

@@ -35,7 +35,7 @@ struct RuleProperties {
   bool conserves_energy;         // u^2 + U^2
   bool conserves_momentum;       // p + P, for sigma < 1
   InvariantMeasure invariant;
-  std::span<const RuleOption> options{};  // arguments of its constructor, after sigma
+  std::span<const RuleOption> options{};                         // arguments of its constructor, after sigma
   bool (*is_elastic)(std::span<const double> values) = nullptr;  // whether these options make it Elastic
 };
 

@@ -148,7 +148,6 @@ std::vector<Definition> definitions(const Parameters& parameters) {
        number(&F::energy_current)},
       {{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1); NaN without --cells"},
        number(&F::conductivity)},
-      {{"momentum_flux", "momentum/time", "Integral of |p| F: pressure"}, number(&F::momentum_flux)},
       {{"current_spread", "1", "Largest deviation of a current over x, relative to what the baths inject"},
        number(&F::current_spread)},
       {{"temperature_scatterer", "temperature", "<P^2>/M", {site}}, array(&F::scatterer_temperature)},

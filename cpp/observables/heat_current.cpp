@@ -71,7 +71,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, const std::ve
     sums[tallies.heat][k] = mean_square(heat, windows[k]) / cells;
 }
 
-/// Fit of (M28) to the heat from a time on: y/t = 4.5 A t^(1/3) + 2 D, where the variance of y is taken as
+/// Fit of (59) to the heat from a time on: y/t = 4.5 A t^(1/3) + 2 D, where the variance of y is taken as
 /// y^2 t, as a record holds a number of independent windows that is proportional to 1/t.
 struct Growth {
   double amplitude, diffusion;
@@ -141,7 +141,6 @@ int main(int argc, char** argv) {
   StudyProgram program("heat_current", "Heat that passes in a time in a closed chain in equilibrium");
   Parameters parameters;
   declare(program.options(), parameters);
-  declare_gamma(program.options(), parameters.ring.scattering, positive);
   program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });
 }

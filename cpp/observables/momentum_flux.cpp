@@ -76,7 +76,6 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
   fluxes.quantity("flux", bins, units, "F_N, crossings per unit time and momentum",
                   all(bins, &Reading::flux));
   fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-", all(bonds, &Reading::jump));
-  moments.quantity("rate", halves, "1/time", "Crossings by direction", all(halves, &Reading::rate));
   moments.quantity("square", halves, "momentum^2", "<p^2> by direction", all(halves, &Reading::square));
   moments.quantity("kurtosis", halves, "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half",
                    all(halves, &Reading::kurtosis));

@@ -83,8 +83,6 @@ Group profiles(const CellTallies& tallies, double bin_width) {
                  of([](const Profile& profile) { return average(profile.energy_current()); }));
   group.quantity("particle_current_deviation", bond, "1/time", "J_n minus its mean over the bonds",
                  of([](const Profile& profile) { return minus_mean(profile.particle_current()); }));
-  group.quantity("energy_current_deviation", bond, "energy/time", "J_U minus its mean over the bonds",
-                 of([](const Profile& profile) { return minus_mean(profile.energy_current()); }));
   group.quantity("scatterer_density", {tallies.end, tallies.momentum}, "1/momentum",
                  "Probability density of P/sqrt(M)", mean_of(tallies.end_momentum, bin_width));
   return group;

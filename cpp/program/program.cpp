@@ -30,11 +30,7 @@ std::string cost_path(const std::string& output) {
 std::string cost(double wall, std::uint64_t events) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-  constexpr std::int64_t bytes_per_unit = 1;
-#else
   constexpr std::int64_t bytes_per_unit = 1024;  // Linux reports kilobytes
-#endif
   return fmt::format(
       "{{\"wall_seconds\": {:.6f}, \"cpu_seconds\": {:.6f}, \"peak_memory_bytes\": {}, \"events\": {}}}\n",
       wall, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, usage.ru_maxrss * bytes_per_unit, events);

@@ -37,13 +37,9 @@ double ScatteringParameters::mean_scatterings() const {
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range) {
   options.integer("--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
   options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
-  declare_gamma(options, parameters, gamma_range);
-  declare(options, parameters.rule);
-}
-
-void declare_gamma(Options& options, ScatteringParameters& parameters, Range range) {
-  options.real_or_word("--gamma", parameters.gamma, range, "N", "1",
+  options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
                        "Mean number of scatterings in N cells; N: every scatterer scatters");
+  declare(options, parameters.rule);
 }
 
 void declare(Options& options, RuleParameters& parameters) {

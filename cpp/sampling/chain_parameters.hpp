@@ -39,9 +39,6 @@ struct ScatteringParameters {
 /// Declares --cells, --sigma, --gamma and --rule.
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range);
 
-/// Declares --gamma.
-void declare_gamma(Options& options, ScatteringParameters& parameters, Range range);
-
 /// Declares --rule and the options of all rules.
 void declare(Options& options, RuleParameters& parameters);
 

@@ -29,12 +29,6 @@ double ClosedParameters::mean_square_momentum() const {
   return chain.particles() * temperature + chain.cells * scatterer_temperature * root_mass * root_mass;
 }
 
-std::optional<double> ClosedParameters::mean_energy() const {
-  if (zero_total_momentum) return {};
-  const ClosedChain chain = this->chain();
-  return 0.5 * (chain.particles() * temperature + chain.cells * scatterer_temperature);
-}
-
 double ClosedParameters::longest_clock() const { return 0x1p32 * ring.cell_length / std::sqrt(hottest()); }
 
 void declare(Options& options, ClosedParameters& parameters) {

@@ -33,9 +33,6 @@ struct ClosedParameters {
   /// Mean over replicas of the square of the total momentum [eq. 21].
   double mean_square_momentum() const;
 
-  /// Mean over replicas of the total energy [eq. 33]; none with zero total momentum, where it is unknown.
-  std::optional<double> mean_energy() const;
-
   /// Longest time on a clock of type double that resolves a flight of the hottest particles to 5e-7 of its
   /// duration.
   double longest_clock() const;

@@ -50,11 +50,6 @@ double ClosedRun::momentum_control() const {
   return mean > 0 && std::isfinite(momentum) ? momentum * momentum / mean - 1 : 0;
 }
 
-double ClosedRun::energy_control() const {
-  const std::optional<double> mean = parameters_.mean_energy();
-  return mean && std::isfinite(start_.energy) ? start_.energy / *mean - 1 : 0;
-}
-
 std::uint64_t ClosedRun::finish(const ClosedTallies& tallies, TallySums& sums) const {
   const Invariants end = chain_.invariants();
   sums[tallies.energy_drift] = relative(end.energy - start_.energy, start_.energy);

@@ -71,10 +71,6 @@ class ClosedRun {
   /// [eq. 33]. It is 0 if the momentum is zero or not conserved.
   double momentum_control() const;
 
-  /// Control variate of mean 0: total energy over its mean over replicas, minus 1 [eq. 33]. It is 0 if the
-  /// mean is unknown, as after a shift to zero total momentum, or if the energy is not conserved.
-  double energy_control() const;
-
   /// Records the conservation errors so far; returns the number of events.
   std::uint64_t finish(const ClosedTallies& tallies, TallySums& sums) const;
 

@@ -30,9 +30,9 @@ double variance_ratio(const Records& a, const Records& b, const Columns& columns
 
 /// Applies control variates if this is possible and lowers the variance of the measured columns of all
 /// regressions on average; otherwise returns the records unchanged. Either all columns are corrected or
-/// none, because neighbouring columns belong to one profile. A column that the controls determine, such as the
-/// particles that enter at an opening, stays uncorrected: its corrected value would be the known mean with an
-/// error of 0, which is not a measurement.
+/// none, because neighbouring columns belong to one profile. A column that the controls determine, such as
+/// the particles that enter at an opening, stays uncorrected: its corrected value would be the known mean
+/// with an error of 0, which is not a measurement.
 Group::Prepared reduce_variance(const Records& records, const std::vector<Regression>& regressions);
 
 }  // namespace lorentz

@@ -80,7 +80,6 @@ std::vector<Description> MovingPeak::descriptions(const Axis& time, const std::s
   const Axis from{"from", "time", "First time of the fit", {time.values.begin(), time.values.end() - 1}};
   return {{"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
           {"peak", units, "Height of the moving peak, by a fit of exp(cubic) above half of it", {time}},
-          {"peak_raw", units, "Largest value of the folded profile, biased upwards by the noise", {time}},
           {"peak_speed",
            "1/time",
            "Cells per time by which peak_position moves between two times",
@@ -93,8 +92,8 @@ std::vector<Description> MovingPeak::descriptions(const Axis& time, const std::s
 std::vector<double> MovingPeak::values() const {
   std::vector<double> all = positions_;
   const std::vector<double> exponent{exponent_from(0)};
-  for (const std::vector<double>& each : {heights_, raw_heights(), speeds(times_, positions_),
-                                          exponents_by_octave(), exponents_from(), exponent})
+  for (const std::vector<double>& each :
+       {heights_, speeds(times_, positions_), exponents_by_octave(), exponents_from(), exponent})
     all.insert(all.end(), each.begin(), each.end());
   return all;
 }
@@ -107,13 +106,6 @@ MovingPeak::MovingPeak(std::span<const double> profiles, std::vector<double> tim
     positions_.push_back(peak.position);
     heights_.push_back(peak.height);
   }
-}
-
-std::vector<double> MovingPeak::raw_heights() const {
-  std::vector<double> values;
-  for (const std::vector<double>& side : sides_)
-    values.push_back(*std::max_element(side.begin() + 1, side.end()));
-  return values;
 }
 
 std::vector<double> MovingPeak::centre_shares(double total) const {

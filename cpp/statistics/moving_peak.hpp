@@ -43,7 +43,6 @@ class MovingPeak {
 
   std::vector<double> positions() const { return positions_; }
   std::vector<double> heights() const { return heights_; }
-  std::vector<double> raw_heights() const;                // largest values away from the centre
   std::vector<double> centre_shares(double total) const;  // part in the five central cells
   std::vector<double> odd_parts() const;                  // [time, distance]
   std::vector<double> exponents_from() const;             // fits from every time but the last on

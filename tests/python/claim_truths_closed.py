@@ -21,7 +21,6 @@ def pulse(panel: str, **given: Any) -> World:
     others."""
     shape = {
         "peak": 1,
-        "peak_raw": 1,
         "peak_position": 10,
         "energy_difference": lambda _run, _t, x: (x > 1) & (x < x.max() - 1),
     }

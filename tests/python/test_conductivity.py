@@ -1,5 +1,4 @@
-"""Conductivities that are not defined: the reason and the remedy are in the last lines. Windows that are
-not stationary are in test_measure.py."""
+"""Conductivities that are not defined: the reason and the remedy are in the last lines."""
 
 from pathlib import Path
 

@@ -43,10 +43,7 @@ def result(run: str, options: dict[str, Any], program: str = "sampled", **laws: 
         coordinates = {axis: np.asarray(points, dtype=float) for axis, points in axes.items()}
         computed = program == "boltzmann"
         errors = (None, 0 * mean, None) if computed else (errors_of(mean), None, np.full(mean.shape, 64))
-        described = dict.fromkeys(("mean", "standard_error", "discretisation_error", "count", *axes), "")
-        quantities[name] = Quantity(
-            mean, *errors, coordinates, "1", dict.fromkeys(axes, "1"), described, None
-        )
+        quantities[name] = Quantity(mean, *errors, coordinates, "1", dict.fromkeys(axes, "1"), None)
     provenance = {
         "program": program,
         "converged": "no target",
@@ -449,7 +446,7 @@ def pulses() -> list[Result]:
     middle = np.sqrt(time[1:] * time[:-1])
     return [
         result(run, PULSE | start, energy_difference=(np.outer(1 / time, 100 + cells) * factor, {"time": time, "cell": cells}),
-               ring_closed=([0, 0, 0], {"time": time}), peak=(factor / time**factor, {"time": time}), peak_raw=(factor / time, {"time": time}),
+               ring_closed=([0, 0, 0], {"time": time}), peak=(factor / time**factor, {"time": time}),
                peak_position=(5 + factor * 100 * time, {"time": time}), peak_speed=([100.0 * factor, 101.0 * factor], {"middle": middle}),
                local_damping_exponent=([0.6, 0.2 * factor], {"until": time[1:]}), damping_exponent_from=([0.7, 0.71], {"from": time[:-1]}))
         for run, start, factor in (("rest", {}, 3.0), ("gaussian", {"scatterer-temperature": "particles"}, 2.0))

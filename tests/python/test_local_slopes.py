@@ -57,7 +57,7 @@ def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:
 
 
 def test_the_speed_of_sound_before_the_pulse() -> None:
-    """ζ = n/2Λ, and T conserves the energy [eqs. 13, 14, M11], in cells of length 2."""
+    """ζ = n/2Λ, and T conserves the energy [eqs. 13, 14, 56], in cells of length 2."""
     options = {
         "particles-per-cell": 50,
         "energy": 5000,
@@ -83,7 +83,7 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
 def test_the_caption_states_a_change_of_speed_if_it_is_significant(speeds: list[float], phrase: str) -> None:
     mean = np.array(speeds)
     errors = np.where(np.isnan(mean), np.nan, 10.0)
-    speed = Quantity(mean, errors, None, np.full(len(mean), 8), {}, "1/time", {}, {}, None)
+    speed = Quantity(mean, errors, None, np.full(len(mean), 8), {}, "1/time", {}, None)
     assert fig09.motion(Result(ROOT, {}, {}, {"peak_speed": speed})) == phrase
 
 

@@ -27,7 +27,7 @@ PLAN = {
     if name in SHIPPED and (panel.runs or panel.uses)
 }
 
-WORDS = 70  # of a caption, besides sentences on rules and doubts
+WORDS = 70  # of a caption, besides a sentence on doubts
 
 
 def stated(folder: Path, panel: str) -> tuple[dict[str, str], str]:

@@ -36,7 +36,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     """One row per time; the exponent of an octave is in the row of its last time."""
     peak = result["peak"]
     part = pd.DataFrame({"time": peak.axes["time"], **result.columns("peak")})
-    part = part.assign(peak_raw=result["peak_raw"].mean, **result.columns("peak_position"))
+    part = part.assign(**result.columns("peak_position"))
     later = {"exponent_from_here": "damping_exponent_from", "speed_to_next": "peak_speed"}
     for column, name in later.items():  # defined at all times but the last
         part[column] = pd.Series(result[name].mean)

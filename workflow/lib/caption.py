@@ -79,14 +79,6 @@ def rule(result: Result) -> str:
     return RULE_PHRASES.get(name, name) + values
 
 
-def with_rules(caption: str, results: Sequence[Result]) -> str:
-    """The caption, with a sentence on the collision rules of the panel's own results that it does not
-    name. Elastic collisions, the paper's, need no name."""
-    rules = dict.fromkeys(rule(result) for result in results if "rule" in result.parameters)
-    missing = [name for name in rules if name != "elastic" and name.partition(" (")[0] not in caption]
-    return f"{caption} Collision rule: {listed(missing)}." if missing else caption
-
-
 def with_doubts(caption: str, results: Sequence[Result]) -> str:
     """The caption, with a sentence on results that are not stationary, and one on those that were not
     tested. Panels with a point for each also cross them out."""

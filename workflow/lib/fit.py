@@ -9,39 +9,17 @@ LEVEL = 1e-2  # p-value below which a law is rejected
 
 
 @dataclass(frozen=True)
-class Line:
-    """y = intercept + slope x, with the error of the slope, chi^2 and its degrees of freedom."""
-
-    intercept: float
-    slope: float
-    error: float
-    chi_square: float
-    dof: int
-
-    def at(self, x: ArrayLike) -> np.ndarray:
-        return self.intercept + self.slope * np.asarray(x, dtype=float)
-
-
-@dataclass(frozen=True)
 class PowerLaw:
-    """y = amplitude x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
+    """y ~ x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
 
-    amplitude: float
     exponent: float
     error: float
     chi_square: float
     dof: int
 
     @property
-    def text(self) -> str:
-        return format_with_error(self.exponent, self.error)
-
-    @property
     def rejected(self) -> bool:
         return rejected(self.chi_square, self.dof)
-
-    def at(self, x: ArrayLike) -> np.ndarray:
-        return self.amplitude * np.asarray(x, dtype=float) ** self.exponent
 
 
 def p_value(chi_square: float, dof: int) -> float:
@@ -78,20 +56,14 @@ def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
     return mean, float(np.sum(error**-2) ** -0.5), float(np.sum(((value - mean) / error) ** 2))
 
 
-def fit_line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> Line:
-    """Line by least squares, weighted with the standard errors of the points."""
-    x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
-    design = np.stack([np.ones_like(x), x], axis=1) / error[:, None]
-    covariance = np.linalg.inv(design.T @ design)
-    solution = covariance @ design.T @ (y / error)
-    residual = y / error - design @ solution
-    intercept, slope = map(float, solution)
-    error_of_slope, chi_square = float(np.sqrt(covariance[1, 1])), float(residual @ residual)
-    return Line(intercept, slope, error_of_slope, chi_square, len(x) - 2)
-
-
 def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
-    """Power law by a line through ln y against ln x."""
-    y = np.asarray(y, dtype=float)
-    line = fit_line(np.log(np.asarray(x, dtype=float)), np.log(y), np.asarray(error, dtype=float) / y)
-    return PowerLaw(float(np.exp(line.intercept)), line.slope, line.error, line.chi_square, line.dof)
+    """Power law by a line through ln y against ln x, weighted with the standard errors of the points."""
+    x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
+    relative = error / y
+    design = np.stack([np.ones_like(x), np.log(x)], axis=1) / relative[:, None]
+    covariance = np.linalg.inv(design.T @ design)
+    solution = covariance @ design.T @ (np.log(y) / relative)
+    residual = np.log(y) / relative - design @ solution
+    return PowerLaw(
+        float(solution[1]), float(np.sqrt(covariance[1, 1])), float(residual @ residual), len(x) - 2
+    )

@@ -62,7 +62,6 @@ class Quantity:
     axes: dict[str, np.ndarray]
     units: str
     axis_units: dict[str, str]
-    descriptions: dict[str, str]  # of the mean, of the errors and of the axes
     control_variates: bool | None
 
     @property
@@ -76,23 +75,18 @@ class Quantity:
         return _measured(self.count)
 
     def to_frame(self) -> pd.DataFrame:
-        """One row per value; attrs["units"] and attrs["description"] map columns to theirs."""
+        """One row per value; attrs["units"] maps columns to theirs."""
         grids = np.meshgrid(*self.axes.values(), indexing="ij")
         axes = {name: grid.ravel() for name, grid in zip(self.axes, grids, strict=True)}
         frame = pd.DataFrame(axes | {name: array.ravel() for name, array in self.arrays().items()})
-        attributes = self._attributes()
-        for kind in ("units", "description"):
-            frame.attrs[kind] = {name: attributes[name][kind] for name in frame}
+        units = dict.fromkeys(VALUES, self.units) | {"count": "1"} | self.axis_units
+        frame.attrs["units"] = {name: units[name] for name in frame}
         return frame
 
     def arrays(self) -> dict[str, np.ndarray]:
         """Mean, errors and count by their names."""
         values = {name: getattr(self, name) for name in VALUES}
         return {name: np.asarray(array) for name, array in values.items() if array is not None}
-
-    def _attributes(self) -> dict[str, dict[str, str]]:
-        units = dict.fromkeys(VALUES, self.units) | {"count": "1"} | self.axis_units
-        return {name: {"units": units[name], "description": text} for name, text in self.descriptions.items()}
 
 
 def _measured(array: np.ndarray | None) -> np.ndarray:
@@ -270,10 +264,7 @@ def _quantity(parts: dict[str, h5py.Dataset]) -> Quantity:
     scales = mean.attrs.get("DIMENSION_LIST", ())
     axes = [h5py.h5r.get_name(scale[0], mean.id).decode().rpartition("/")[2] for scale in scales]
     stored = {"mean": mean, **{name: parts[name] for name in (*names, *axes)}}
-    units, descriptions = (
-        {name: _text(dataset.attrs[attribute]) for name, dataset in stored.items()}
-        for attribute in ("units", "description")
-    )
+    units = {name: _text(dataset.attrs["units"]) for name, dataset in stored.items()}
     for text in units.values():
         parse(text)
     used = mean.attrs.get("control_variates")
@@ -283,7 +274,6 @@ def _quantity(parts: dict[str, h5py.Dataset]) -> Quantity:
         axes={name: stored[name][()] for name in axes},
         units=units["mean"],
         axis_units={name: units[name] for name in axes},
-        descriptions=descriptions,
         control_variates=None if used is None else bool(used),
     )
 

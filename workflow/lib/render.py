@@ -20,7 +20,7 @@ import h5py
 import matplotlib.pyplot as plt
 
 from workflow.lib import style
-from workflow.lib.caption import with_doubts, with_rules
+from workflow.lib.caption import with_doubts
 from workflow.lib.columns import as_csv, inherited
 from workflow.lib.figure import Plot, TheoryError
 from workflow.lib.identity import ROOT, SHARED, panel_identity, sources_of_panel
@@ -61,8 +61,7 @@ def render(job: Job) -> None:
     errors = {f"{column}_error": text for column, text in units.items()}
     numbers = as_csv(table, inherited(results) | errors | units)
     shown = script.draw.shown(results) if isinstance(script.draw, Plot) else results
-    own = [result for result in shown if result.path.parent.name == job.panel] or shown
-    whole = with_doubts(with_rules(" ".join(caption.split()), own), shown)
+    whole = with_doubts(" ".join(caption.split()), shown)
     text = Text(script.title(shown) if hasattr(script, "title") else script.TITLE, whole)
     doubts = {str(result.path): result.doubts for result in results if result.doubts}
     save(figure, numbers, Path(job.stem), text, Parents(identity, data, sources, doubts))

@@ -48,12 +48,9 @@ inline std::vector<std::size_t> lags(const std::vector<double>& times) {
   return lags;
 }
 
-/// Declares --cells, --sigma, --rule, --cell-length, --temperature, --fugacity, --observation-time and
-/// --times.
+/// Declares all of them.
 inline void declare(Options& options, EquilibriumParameters& parameters) {
-  options.integer("--cells", parameters.ring.scattering.cells, {1, 100'000'000}, "Number of cells N");
-  options.real("--sigma", parameters.ring.scattering.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
-  declare(options, parameters.ring.scattering.rule);
+  declare(options, parameters.ring.scattering, positive);
   options.real("--cell-length", parameters.ring.cell_length, positive, "length",
                "Distance between scatterers");
   options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");
