@@ -90,12 +90,12 @@ for panel_name in PLAN:
     rule:
         name:
             panel_name
-        localrule: True
         input:
             present(DATA[panel_name]),
         output:
             FILES[panel_name],
         priority: 10**9  # before any run
+        localrule: True
         params:
             job=JOBS[panel_name],
         shell:
