@@ -1,13 +1,15 @@
-"""Mistakes in the physics that C++ tests must find: each patch of tests/mutants is applied to a copy of the
-sources, whose tests then fail. Its first line states the mistake and, after a semicolon, the source and the
-names of the tests.
+"""Mistakes that tests must find: each patch of tests/mutants is applied to a copy of the sources, whose tests
+then fail. Its first line states the mistake and, after a semicolon, the source and the names of the C++ tests,
+or the test of test_figure_numbers.py.
 
 The copy is built once in a folder of its own; for a patch only what it changes is compiled.
 """
 
+import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -34,6 +36,7 @@ class Tree:
         self.folder = folder
         for name in ("cpp", "tests/cpp"):
             shutil.copytree(ROOT / name, folder / name)
+        shutil.copy(ROOT / "pyproject.toml", folder)
         (folder / "workflow/pipeline").mkdir(parents=True)
         shutil.copy(ROOT / "workflow/pipeline/sources.py", folder / "workflow/pipeline")
         tests = ";".join(sorted({head(patch)["source"] for patch in PATCHES}))
@@ -68,3 +71,21 @@ def test_the_mistake_is_found(tree: Tree, patch: Path) -> None:
         tree.run("git", "apply", "--reverse", str(patch))
     assert done.returncode == 1, f"no test finds {head(patch)['mistake']}"
     assert FAILED in done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    "patch", sorted((ROOT / "tests/mutants/figures").glob("*.patch")), ids=lambda patch: patch.stem
+)
+def test_the_mistake_in_a_figure_is_found(patch: Path, tmp_path: Path) -> None:
+    mistake, _, test = patch.read_text().partition("\n")[0].partition("; ")
+    for name in ("workflow", "tests"):
+        shutil.copytree(ROOT / name, tmp_path / name)
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build/describe").symlink_to(ROOT / "build/describe")
+    shutil.copytree(ROOT / "cpp/observables", tmp_path / "cpp/observables")
+    subprocess.run(["git", "apply", "--unsafe-paths", "-p1", patch], cwd=tmp_path, check=True)
+    command = [sys.executable, "-m", "pytest", "-q", "tests/python/test_figure_numbers.py", "-k", test]
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 1, f"no test finds that {mistake}: {done.stdout}"
+    assert f"{test} - " in done.stdout
