@@ -8,6 +8,8 @@ unexport BASH_ENV ENV VIRTUAL_ENV
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .SILENT:
+OPTIONS := QUALITY PANEL SEED REPLICAS ERROR JOBS DRY FILE SAMPLE PROFILE ACCOUNT PARTITION
+$(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(error $(name) from the environment has no effect: write make $(MAKECMDGOALS) $(name)=$($(name)), or unset $(name))))
 ENTRY := .venv/bin/python -I -m workflow
 DEV := .venv/bin
 
@@ -15,16 +17,20 @@ help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper  PANEL=fig05  SEED=7  REPLICAS=200  ERROR=0.005  JOBS=2  DRY=yes'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
-figures: setup  ## Build, simulate and render the paper's figures: figures/QUALITY/*.pdf, .png, .svg, .csv
-panel: setup  ## One panel, PANEL=fig05
-report: setup  ## The paper's claims against the results: figures/QUALITY/report.html
-gallery: setup  ## The report of the release, docs/gallery, from the results at QUALITY
-audit: setup  ## Check every result and figure against sources, parameters and packages
-status: setup  ## Fresh, stale (why) or missing
-verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
-provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
-prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
-build: setup  ## The programs, in build/bin
+figures:  ## Build, simulate and render the paper's figures: figures/QUALITY/*.pdf, .png, .svg, .csv
+panel:  ## One panel, PANEL=fig05
+report:  ## The paper's claims against the results: figures/QUALITY/report.html
+gallery:  ## The report of the release, docs/gallery, from the results at QUALITY
+audit:  ## Check every result and figure against sources, parameters and packages
+status:  ## Fresh, stale (why) or missing
+verify:  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
+provenance:  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
+prune:  ## Remove a quality's results and figures that no plan names; DRY=yes: list
+build:  ## The programs, in build/bin
+figures panel report gallery build: setup
+audit status verify provenance prune: present
+present:
+	bash workflow/pipeline/environment/setup.sh if-missing
 figures panel report gallery audit status verify provenance prune build:
 	$(ENTRY) $@  # which reads PANEL=, QUALITY= and the other options from MAKEFLAGS
 setup:  ## System packages, and Python packages in .venv
@@ -49,4 +55,4 @@ bench: setup-dev build  ## Cost of an event
 	build/bin/benchmarks
 clean:  ## Remove build (programs, logs) and caches; results and figures stay
 	rm -rf build .cache
-.PHONY: help figures panel report gallery audit status verify provenance prune setup setup-dev build test test-long check format bench clean
+.PHONY: help figures panel report gallery audit status verify provenance prune present setup setup-dev build test test-long check format bench clean

@@ -14,7 +14,7 @@ from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
 from workflow.lib.files import format_os_error
 from workflow.pipeline.lock import lock_products
-from workflow.lib.identity import IDENTITY
+from workflow.lib.identity import IDENTITY, ROOT
 from workflow.pipeline.plan import (
     REPORT,
     RESULT,
@@ -28,6 +28,8 @@ from workflow.pipeline.plan import (
 )
 from workflow.pipeline.program import command_line, require_built, threads_of
 
+if not os.path.samefile(".", ROOT):
+    sys.exit(f"{os.getcwd()} is not the project's folder: run snakemake in {ROOT}, without -d")
 clean()
 QUALITY = config.get("quality", "standard")
 if unknown := {*config} - {"quality", "panel"}:

@@ -40,7 +40,7 @@ Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
   const std::vector<Description> descriptions{
       {"drift_p_value", "1", "p-value of no drift of currents, temperatures and energy"},
       {"particle_gain", "1", "Particles that enter minus those that leave, over those that enter"},
-      {"stationary", "1", "1: drift_p_value above 1e-4, particle_gain not above 1e-3"}};
+      {"stationary", "1", "1: drift_p_value above 1e-4, particle_gain within 1e-3; nan: not tested"}};
   group.statistics(descriptions, [=](const Records& records) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Columns controls = columns_of({tallies.injection});
@@ -54,22 +54,23 @@ Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
       return std::vector{mean[tallies.particles][0] / (chain.left.rate + chain.right.rate)};
     });
     const double share = gain.mean.front(), error = gain.standard_error.front();
-    const bool stationary = p_value > level && !(share - 5 * error > tolerated_gain);
-    return Estimate{{p_value, share, stationary ? 1. : 0.}, {none, error, none}};
+    const bool tested = !std::isnan(p_value) && !std::isnan(error),
+               stationary = p_value > level && std::abs(share) - 5 * error <= tolerated_gain;
+    return Estimate{{p_value, share, tested ? static_cast<double>(stationary) : none}, {none, error, none}};
   });
   return group;
 }
 
 std::vector<std::string> remarks_on_stationarity(const Results& results) {
-  const double p_value = quantity_named(results, "drift_p_value").mean.front();
-  if (std::isnan(p_value))
+  const double stationary = quantity_named(results, "stationary").mean.front();
+  if (std::isnan(stationary))
     return {"not tested whether stationary: too few replicas, or nothing varies; choose more --replicas"};
-  if (quantity_named(results, "stationary").mean.front() == 1) return {};
+  if (stationary == 1) return {};
   return {
-      fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles grows by "
-                  "{:.2g} of those "
-                  "injected; choose a longer --relaxation-time",
-                  p_value, quantity_named(results, "particle_gain").mean.front())};
+      fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles changes by "
+                  "{:+.2g} of those injected; choose a longer --relaxation-time",
+                  quantity_named(results, "drift_p_value").mean.front(),
+                  quantity_named(results, "particle_gain").mean.front())};
 }
 
 }  // namespace lorentz

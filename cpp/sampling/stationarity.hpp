@@ -102,7 +102,8 @@ class Drift {
 
 /// Quantities `drift_p_value`, `particle_gain`, as a share of the particles injected, and `stationary`: 1 if
 /// the p-value exceeds 1e-4, so that the test rejects one stationary run in ten thousand [eq. 51], and the
-/// gain does not exceed 1e-3 by more than five of its standard errors.
+/// gain, of either sign, does not exceed 1e-3 by more than five of its standard errors; NaN if one of them is
+/// unknown.
 Group stationarity(const DriftTallies& tallies, const OpenChain& chain);
 
 /// Line that restricts the meaning of results that are not stationary, with the remedy; none if they are.

@@ -16,6 +16,7 @@ from workflow.claims.verdict import (
     level_of_each,
     with_systematic,
 )
+from workflow.lib.fit import format_with_error
 
 BAND = Band(-1, 1)
 LEVEL = 0.1
@@ -105,9 +106,17 @@ def test_bands_as_they_are_written() -> None:
 def test_level_and_bound() -> None:
     assert 34 * level_of_each(34) == pytest.approx(0.05)
     assert critical(0.05, math.inf) == pytest.approx(1.959964)
-    moved = with_systematic(Estimate("", 1.0, 0.1, systematic=0.5), [0.7, 1.1, math.nan])
+    moved = with_systematic(Estimate("", 1.0, 0.1, systematic=0.5), [0.7, 1.1])
     assert moved.systematic == pytest.approx(0.8)
-    assert with_systematic(Estimate("", 1.0, 0.1), [math.nan]).systematic == 0
+
+
+@pytest.mark.parametrize("others", [[math.nan], [1.0, math.nan], [math.nan, 1.0], [math.inf]])
+def test_an_unknown_systematic_error_decides_nothing(others: list[float]) -> None:
+    for value in (0.5, 7.0):  # inside and outside
+        number = with_systematic(Estimate("", value, 0.001), others)
+        for band in (BAND, Band(0, math.inf)):
+            assert Verdict(band, (number,), LEVEL).outcome is Outcome.UNDECIDED
+        assert "∞" in format_with_error(number.value, number.error, number.systematic)
 
 
 def test_wider_bands() -> None:

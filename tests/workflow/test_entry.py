@@ -1,5 +1,6 @@
 """The entry: mistyped options get one line and exit status 2, and make passes its options."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -24,9 +25,51 @@ def test_a_mistyped_option_gets_a_line(tmp_path: Path, words: str, line: str) ->
 
 
 def test_make_passes_its_options(project: Project) -> None:
-    """Also those with spaces and quotes; the variables of the caller's shell are no options."""
+    """Also those with spaces and quotes."""
     make = ("make", "panel", "QUALITY=smoke")
-    printed = project.run(*make, "PANEL=mu it's", status=2, ERROR="0.1", PYTHONPATH="/nonexistent").stdout
+    printed = project.run(*make, "PANEL=mu it's", status=2, PYTHONPATH="/nonexistent").stdout
     assert printed.splitlines()[0] == "it's is not a panel; choose one of mu, energy"
     printed = project.run(*make, "PANEL=mu energy").stdout
     assert printed.splitlines()[-1] == "In figures/smoke: mu energy.pdf and .png .svg .csv"
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [("prune", {"DRY": "yes"}), ("status", {"QUALITY": "smoke"}), ("panel PANEL=mu", {"SEED": "7"})],
+)  # fmt: skip
+def test_an_option_from_the_environment_is_refused(
+    project: Project, words: str, option: dict[str, str]
+) -> None:
+    """With the command that has its effect. Nothing is made or removed."""
+    before = project.products()
+    (name, value) = next(iter(option.items()))
+    done = project.run("make", *words.split(), status=2, **option)
+    assert f"{name}={value}" in done.stdout
+    assert project.products() == before
+
+
+def test_reading_keeps_an_environment_that_does_not_run(tmp_path: Path) -> None:
+    """As on a node or in a container without its interpreter."""
+    for name in ("Makefile", "workflow"):
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, tmp_path / name)
+    packages = tmp_path / ".venv/lib/python3/site-packages/own.py"
+    packages.parent.mkdir(parents=True)
+    packages.touch()
+    (tmp_path / ".venv/bin").mkdir()
+    (tmp_path / ".venv/bin/python").symlink_to("/nonexistent/python3")
+    for target in ("status", "audit", "provenance", "prune", "verify"):
+        done = Project(tmp_path).run("make", target, status=2)
+        assert "/nonexistent/python3" in done.stdout
+        assert "make setup" in done.stdout
+    assert packages.exists()
+    assert not (tmp_path / ".cache").exists()
+
+
+def test_another_folder_is_refused(project: Project, tmp_path: Path) -> None:
+    """As results and figures would be written there."""
+    other = tmp_path / "other"
+    other.mkdir()
+    done = project.run("env", "-C", other, project.folder / ".venv/bin/python", "-m", "snakemake", "-s",
+                       project.folder / "Snakefile", "-n", status=1)  # fmt: skip
+    assert str(project.folder) in done.stdout + done.stdout
+    assert not {path.name for path in other.iterdir()} - {".snakemake"}

@@ -148,8 +148,8 @@ def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Proj
         soon(lambda: [*project.folder.glob(logs)])
         time.sleep(2)
         os.killpg(making.pid, signal.SIGINT)
-        shown, _ = making.communicate(timeout=120)
-    assert "Stopped; 0 of 4 jobs done" in shown
+        making.communicate(timeout=120)
+    assert making.returncode
     soon(lambda: not cluster.jobs("PENDING,RUNNING,COMPLETING"))
     assert [*project.folder.glob(checkpoints)]
 

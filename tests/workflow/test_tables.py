@@ -1,6 +1,7 @@
 """The tables of the figures: every column scales with the results according to its units."""
 
 import importlib
+import io
 import json
 from dataclasses import replace
 from functools import cache
@@ -14,7 +15,7 @@ import pytest
 from tests.python.conftest import ROOT
 from tests.python.scale import OTHER, ROUNDING, agree
 from workflow.lib import style
-from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
+from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv
 from workflow.lib.load import NOT_REACHED, Quantity, Result, load
 from workflow.lib.units import UnitsError
 from workflow.pipeline.plan import data_of, load_plan
@@ -143,3 +144,32 @@ def test_columns_without_units_are_refused() -> None:
         as_csv(table, {"sigma": "1", "time": "second/furlong"})
     text = as_csv(table, {"sigma": "1", "time": "time", "absent": "1"})
     assert text.splitlines()[0] == '# units: {"sigma": "1", "time": "time"}'
+
+
+FRAME = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", "b"]})
+
+
+@pytest.mark.parametrize(
+    ("table", "remedy"),
+    [
+        (FRAME.groupby("sigma").max(), "reset_index"),
+        (FRAME.groupby(["sigma", "label"]).sum(), "reset_index"),
+        (FRAME.set_axis(["x", "y"]), "reset_index"),
+        (FRAME.set_axis(["label", "label"], axis=1), "label"),
+        (FRAME.assign(label=["a # 1", "b"]), "#"),
+        (FRAME.rename(columns={"label": "#"}), "#"),
+        (FRAME.assign(label=["NA", "b"]), "label"),
+        (FRAME.assign(label=["null", "b"]), "label"),
+        (FRAME.assign(label=["", "b"]), "label"),
+        (FRAME.assign(sigma=[np.arange(2), np.arange(2)]), "explode"),
+    ],
+)  # fmt: skip
+def test_a_table_that_its_csv_would_not_hold_is_refused(table: pd.DataFrame, remedy: str) -> None:
+    with pytest.raises(TableError, match=remedy):
+        as_csv(table, {"sigma": "1"})
+
+
+def test_rows_may_be_selected_and_unknown() -> None:
+    table = pd.concat([FRAME, FRAME.assign(sigma=np.nan)])[1:]
+    text = as_csv(table, {"sigma": "1"}).partition("\n")[2]
+    assert pd.read_csv(io.StringIO(text), comment="#").equals(table.reset_index(drop=True))

@@ -64,7 +64,7 @@ Claim = Callable[[Data], list[Estimate]]
 
 
 def dof(*results: Result) -> float:
-    """Degrees of dof of a number from several runs: of the run with the fewest replicas."""
+    """Degrees of freedom of a number from several runs: of the run with the fewest replicas."""
     return min(result.replicas for result in results) - 1
 
 

@@ -124,6 +124,10 @@ def critical(level: float, dof: float) -> float:
 
 
 def with_systematic(number: Estimate, others: Sequence[float]) -> Estimate:
-    """Adds the largest distance from the values of other settings to the bound on the systematic error."""
-    differences = [abs(other - number.value) for other in others if math.isfinite(other)]
-    return replace(number, systematic=number.systematic + max(differences, default=0.0))
+    """Adds the largest distance from the values of other settings to the bound on the systematic error. An
+    unknown value makes the bound infinite, so that nothing is decided."""
+    differences = [abs(other - number.value) for other in others]
+    known = all(map(math.isfinite, differences))
+    return replace(
+        number, systematic=number.systematic + max(differences, default=0.0) if known else math.inf
+    )

@@ -4,12 +4,13 @@ A column has the units of the quantity, error (`kappa_error`), axis or option th
 declares the units of its other columns.
 """
 
+import io
 import json
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
 import pandas as pd
-from pandas.api.types import is_bool_dtype
+from pandas.api.types import is_bool_dtype, is_integer_dtype, is_scalar
 
 from workflow.lib.load import Result
 from workflow.lib.units import UnitsError, parse
@@ -36,11 +37,34 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
     return {name: units.pop() for name, units in by_name.items() if len(units) == 1}
 
 
+class TableError(ValueError):
+    """A table would lose a number or a label in its CSV."""
+
+
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
     """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid
-    units."""
+    units, TableError if the CSV would not be read as the table."""
     numbers = table.to_csv(index=False, float_format="%.12g", lineterminator="\n")
+    _require_whole(table, numbers)
     return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{numbers}"
+
+
+def _require_whole(table: pd.DataFrame, numbers: str) -> None:
+    """Raises TableError unless read_csv(comment="#") makes of the text what the script made."""
+    if table.index.nlevels > 1 or table.index.name is not None or not is_integer_dtype(table.index):
+        raise TableError("the index of the table is not written: return table.reset_index()")
+    if not table.columns.is_unique:
+        raise TableError(f"two columns have the same name: {', '.join(map(str, table.columns))}")
+    if "#" in numbers:
+        raise TableError("# begins a comment in the CSV: choose another name for a column or label")
+    for name, cells in table.items():
+        if not all(map(is_scalar, cells)):
+            raise TableError(
+                f"cells of the column {name} are no single numbers: give each a row, as explode()"
+            )
+    missing = pd.read_csv(io.StringIO(numbers)).isna().to_numpy() != table.isna().to_numpy()
+    for name in table.columns[missing.any(axis=0)]:
+        raise TableError(f"a label in the column {name} would be read as missing: choose other words")
 
 
 def _is_label(column: pd.Series) -> bool:

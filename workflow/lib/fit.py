@@ -37,15 +37,18 @@ def rejected(chi_square: float, dof: int) -> bool:
 def format_with_error(value: float, error: float, systematic: float = 0) -> str:
     """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above;
     `unknown` for NaN. The bound on the systematic error follows in its own brackets, unless it is below
-    the last digit: 0.299(8)(52)."""
+    the last digit: 0.299(8)(52); ∞ if it is unknown."""
     if np.isnan(value):
         return "unknown"
     if not (np.isfinite(error) and error > 0):
         return f"{value:.4g}".replace("-", "−")
     error = float(f"{error:.1e}")
     digits = max(0, 1 - int(np.floor(np.log10(error))))
-    errors = [error] if round(systematic * 10**digits) == 0 else [error, systematic]
-    brackets = (f"{one:.{digits}f}" if error >= 1 else f"{round(one * 10**digits)}" for one in errors)
+    errors = [error] if systematic * 10**digits <= 0.5 else [error, systematic]
+    brackets = (
+        "∞" if np.isinf(one) else f"{one:.{digits}f}" if error >= 1 else f"{round(one * 10**digits)}"
+        for one in errors
+    )
     return "".join([f"{value:.{digits}f}", *(f"({shown})" for shown in brackets)]).replace("-", "−")
 
 

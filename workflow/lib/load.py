@@ -151,8 +151,7 @@ class Result:
             agree = target is not None and target.count is not None and np.isnan(target.error).any()
             reasons.append("target error not reached" + (f": {ALL_AGREE}" if agree else ""))
         if "stationary" in self.quantities:
-            tested = self.quantities.get("drift_p_value")
-            if tested is not None and np.isnan(tested.mean):
+            if np.isnan(self["stationary"].mean):
                 reasons.append(NOT_TESTED)
             elif self["stationary"].mean != 1:
                 reasons.append(NOT_STATIONARY)

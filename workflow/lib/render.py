@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 
 from workflow.lib import style
 from workflow.lib.caption import with_doubts
-from workflow.lib.columns import as_csv, inherited
+from workflow.lib.columns import TableError, as_csv, inherited
 from workflow.lib.figure import Plot, TheoryError
 from workflow.lib.identity import ROOT, SHARED, panel_identity, sources_of_panel
 from workflow.lib.job import Job
@@ -43,7 +43,7 @@ class EditedError(ValueError):
 
 def render(job: Job) -> None:
     """Writes the files of a panel. Raises FormatError, OSError, TheoryError, UndeclaredError, UnitsError,
-    EditedError."""
+    TableError, EditedError."""
     sources = sources_of_panel(job.script, job.reads)
     identity = panel_identity(job.panel, job.data, sources)
     if job.identity not in (identity, ""):
@@ -113,7 +113,7 @@ def failure(job: Job) -> tuple[str, str]:
     """Renders a panel. Returns its name, and why it failed, "" if it did not."""
     try:
         render(job)
-    except (FormatError, OSError, TheoryError, UndeclaredError, UnitsError, EditedError) as error:
+    except (FormatError, OSError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError) as error:
         return job.panel, str(error)
     except Exception:
         return job.panel, traceback.format_exc().strip()  # a mistake in the script

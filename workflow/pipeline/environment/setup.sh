@@ -1,23 +1,47 @@
 #!/bin/bash
 # System packages, and the locked Python packages in .venv; with "dev" also those of tests and checks, with "slurm" those of PROFILE=slurm.
-# uv installs them: from PATH, or a fixed version in .cache/uv.
+# With "if-missing" an environment stays as it is. uv installs them: from PATH, or a fixed version in .cache/uv.
 set -euo pipefail
+works() { .venv/bin/python -I -c '' 2>/dev/null; }
+if [ "${1:-}" = if-missing ] && [ -e .venv ]; then
+  works && exit 0
+  echo "$(readlink -m .venv/bin/python), the interpreter of .venv, does not run here: run make setup, which keeps .venv as .venv.former" >&2
+  exit 1
+fi
+mkdir -p .cache
+exec 9>.cache/setup.lock
+flock 9 # until another command has installed
 bash workflow/pipeline/environment/system_packages.sh "$@"
 
-uv=$(command -v uv || echo .cache/uv/bin/uv)
+version=0.13.9
+uv=$(command -v uv || true)
+if [ -z "$uv" ] || [ "$(printf '%s\n' "$version" "$("$uv" --version | cut -d ' ' -f 2)" | sort -V | head -n 1)" != "$version" ]; then
+  uv=.cache/uv/bin/uv # that in PATH is missing or older
+fi
 if [ ! -x "$uv" ]; then
   echo 'Installing uv into .cache/uv'
   python3 -I -m venv --clear .cache/uv
-  .cache/uv/bin/pip install --quiet --disable-pip-version-check uv==0.13.9
+  .cache/uv/bin/pip install --quiet --disable-pip-version-check uv==$version
 fi
 
 groups='--no-default-groups'
 for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
-# A relocatable environment may be copied and moved. Without its interpreter it is created again.
-.venv/bin/python -I -c '' 2>/dev/null || "$uv" venv --quiet --clear --relocatable .venv
-for packages in .venv/lib/python3*/site-packages; do
+# A relocatable environment may be copied and moved. A new one takes its place when it is complete.
+folder=.venv
+if ! works; then
+  folder=.venv.new
+  "$uv" venv --quiet --clear --relocatable "$folder"
+fi
+for packages in "$folder"/lib/python3*/site-packages; do
   echo ../../../.. >"$packages/project.pth" # from the folder that the environment is in
 done
 # `uv sync` would need the index in uv.lock; this installs from a mirror, too, with the locked hashes. Other packages of the user stay.
-"$uv" export --quiet --frozen --no-emit-project $groups >.venv/locked.txt
-"$uv" pip install --quiet --python .venv --require-hashes --requirement .venv/locked.txt
+"$uv" export --quiet --frozen --no-emit-project $groups >"$folder/locked.txt"
+"$uv" pip install --quiet --python "$folder" --require-hashes --requirement "$folder/locked.txt"
+if [ "$folder" != .venv ]; then
+  if [ -e .venv ]; then
+    rm -rf .venv.former
+    mv .venv .venv.former
+  fi
+  mv "$folder" .venv
+fi

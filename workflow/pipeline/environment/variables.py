@@ -7,6 +7,7 @@ from pathlib import Path
 
 ALLOWED = {
     *("PATH", "HOME", "USER", "LOGNAME", "TERM", "COLUMNS", "TMPDIR", "CXX", "MAKEFLAGS", "SLURM_CONF"),
+    *("CMAKE_PREFIX_PATH", "CPATH", "LIBRARY_PATH", "PKG_CONFIG_PATH"),  # where the libraries are
     *("http_proxy", "https_proxy", "no_proxy", "all_proxy"),
     *("HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY", "ALL_PROXY", "SSL_CERT_FILE", "SSL_CERT_DIR"),
 }

@@ -14,6 +14,7 @@ import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -59,9 +60,12 @@ def hash_if_readable(path: str) -> str:
 
 @cache
 def tracked() -> set[str]:
-    """Paths of the results in git, those of the release; none in a copy without it."""
-    command = ["git", "--git-dir=.git", "ls-files", "data"]
-    return {*subprocess.run(command, capture_output=True, text=True, check=False).stdout.splitlines()}
+    """Paths of the results in git, those of the release; all of data/paper if git does not answer, as in an
+    archive."""
+    with suppress(OSError, subprocess.CalledProcessError):
+        command = ["git", "--git-dir=.git", "ls-files", "data"]
+        return {*subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()}
+    return {*map(str, Path("data/paper").glob("*/*"))}
 
 
 def fault_of_result(path: str, run: Run) -> Fault | None:
