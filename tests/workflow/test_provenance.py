@@ -13,6 +13,7 @@ import pytest
 from tests.workflow.conftest import ROOT, Project
 from workflow.lib.load import digest, load, nodes_of
 from workflow.lib.save import reduced
+from workflow.pipeline.provenance.audit import tracked
 from workflow.pipeline.provenance.compare import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
@@ -284,3 +285,17 @@ def test_results_in_git_are_of_the_release_and_stay_after_a_change(project: Proj
     project.entry("prune")
     assert released.exists()
     assert not other.exists()
+
+
+@pytest.mark.parametrize("link", [None, "gitdir: /nonexistent\n"])
+def test_without_git_the_folder_of_the_release_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, link: str | None
+) -> None:
+    """As in an archive, or a work tree whose repository is away."""
+    released = tmp_path / "data/paper/mu/a.0123456789ab.h5"
+    released.parent.mkdir(parents=True)
+    released.touch()
+    if link:
+        (tmp_path / ".git").write_text(link)
+    monkeypatch.chdir(tmp_path)
+    assert str(released.relative_to(tmp_path)) in tracked.__wrapped__()

@@ -65,7 +65,7 @@ def tracked() -> set[str]:
     with suppress(OSError, subprocess.CalledProcessError):
         command = ["git", "--git-dir=.git", "ls-files", "data"]
         return {*subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()}
-    return {*map(str, Path("data/paper").glob("*/*"))}
+    return {*map(str, Path("data/paper").rglob("*"))}
 
 
 def fault_of_result(path: str, run: Run) -> Fault | None:
