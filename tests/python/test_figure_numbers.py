@@ -239,22 +239,9 @@ def test_fig03_inset() -> None:
         )
     ]
     for cells in (2, 4):
-        runs += [
-            result(
-                f"mean-field_cells={cells}",
-                CHAIN | {"cells": cells},
-                "boltzmann",
-                flux=flux(0.3 / cells, cells),
-            )
-        ]
-        runs += [
-            result(
-                f"simulation_cells={cells}",
-                CHAIN | {"cells": cells},
-                "momentum_flux",
-                flux=flux(0.2 / cells, cells),
-            )
-        ]
+        for kind, program, factor in (("mean-field", "boltzmann", 0.3), ("simulation", "momentum_flux", 0.2)):
+            chain = CHAIN | {"cells": cells}
+            runs.append(result(f"{kind}_cells={cells}", chain, program, flux=flux(factor / cells, cells)))
     axes, table, _ = drawn("fig03_inset", runs)
     left, right, decay = axes[:3]
     outgoing = {cells: np.where(p < 0, (error := run["flux"].error)[0], error[-1]) / 10
