@@ -79,12 +79,13 @@ void ClosedDynamics::advance(const Rule& rule, double until, Observer& observer,
   const double scale = rule.scatterer_scale();
   double* const scatterers = scatterers_.data();
   const auto arrive = [&](const Flight& arrival, EventQueue::Cursor& cursor) __attribute__((always_inline)) {
-    constexpr bool draws = passing || RandomRule<Rule>;
+    constexpr bool draws = passing || DrawingRule<Rule>;
     Flight flight{arrival.time, arrival.velocity, arrival.target, arrival.particle};
     if constexpr (draws) flight.draws = arrival.draws;
     const std::uint32_t cell = flight.target;
     const double particle = flight.velocity, scatterer = scatterers[cell];
-    const Departure departure = scatter(flight, scatterers[cell], free_flight_);
+    const auto w = [scatterers](std::uint32_t at) -> double& { return scatterers[at]; };
+    const Departure departure = scatter(flight, w, free_flight_);
     notify(observer, Collision{departure.time, flight.particle, cell, particle, departure.velocity,
                                scale * scatterer, scale * scatterers[cell]});
     notify_flight(observer, departure);

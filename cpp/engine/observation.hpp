@@ -6,6 +6,7 @@ namespace lorentz {
 
 /// An observer is a class with a hook for every kind of event that it measures:
 ///   on_collision(const Collision&)            both chains; below
+///   on_scatterer(cell, double before, double time)  open chain; engine/open_dynamics.hpp
 ///   on_flight(const Departure&)               closed chain; engine/scattering.hpp
 ///   on_flight(const Path&)                    open chain; engine/path.hpp
 ///   on_injection(End, double time, double u)  open chain; engine/open_dynamics.hpp
@@ -32,6 +33,14 @@ struct NoObserver {};
 template <class Observer>
 [[gnu::always_inline]] inline void notify(Observer& observer, const Collision& collision) {
   if constexpr (requires { observer.on_collision(collision); }) observer.on_collision(collision);
+}
+
+/// before: U since the last change of this scatterer.
+template <class Observer>
+[[gnu::always_inline]] inline void notify_scatterer(Observer& observer, std::uint32_t cell, double before,
+                                                    double time) {
+  if constexpr (requires { observer.on_scatterer(cell, before, time); })
+    observer.on_scatterer(cell, before, time);
 }
 
 /// A Departure or a Path.

@@ -69,6 +69,7 @@ class OpenDynamics {
 /// Advances the chain through all events before `until`, in the order of time. Hooks of the observer, all
 /// optional (engine/observation.hpp):
 ///   on_collision(const Collision&)
+///   on_scatterer(cell, double before, double time)  U of a scatterer changes, by a collision or by another's
 ///   on_flight(const Path&)                    at every departure
 ///   on_injection(End, double time, double u)  u of the particle that enters, energy-normalised
 ///   on_exit(End, double time, double u)       called when the last flight begins; `time` may exceed `until`
@@ -95,14 +96,23 @@ void OpenDynamics::advance(const Rule& rule, double until, Observer& observer, c
   const auto arrive = [&](Flight flight, EventQueue::Cursor& cursor) __attribute__((always_inline)) {
     const std::uint32_t cell = flight.target;
     const double time = flight.time, particle = flight.velocity, scatterer = scatterers[cell];
-    if constexpr (RandomRule<Rule>) {
+    if constexpr (DrawingRule<Rule>) {
       RandomStream random(key_, Purpose::collision, cell, drawn_[cell]++);
-      collide(flight.velocity, scatterers[cell], cell, random);
+      if constexpr (NeighbourRule<Rule>) {
+        const bool right = random.uniform() < 0.5;
+        const std::uint32_t other = cell == 0 ? 1 : cell + 1 == cells || !right ? cell - 1 : cell + 1;
+        const double before = scatterers[other];
+        collide(flight.velocity, scatterers[cell], scatterers[other], cell, random);
+        notify_scatterer(observer, other, scale * before, time);
+      } else {
+        collide(flight.velocity, scatterers[cell], cell, random);
+      }
     } else {
       collide(flight.velocity, scatterers[cell], cell);
     }
     notify(observer, Collision{time, flight.particle, cell, particle, flight.velocity, scale * scatterer,
                                scale * scatterers[cell]});
+    notify_scatterer(observer, cell, scale * scatterer, time);
     const std::int64_t step = direction(flight.velocity), position = 2 * std::int64_t{cell} + 1;
     if constexpr (!passing) {
       if (const std::uint32_t target = cell + static_cast<std::uint32_t>(step); target < cells) [[likely]] {

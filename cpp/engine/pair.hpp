@@ -3,6 +3,7 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -27,7 +28,8 @@ namespace lorentz {
 /// scatterer at exactly the same time, where the order of the numbers decides.
 class PairDynamics {
  public:
-  /// share: false makes everything diverged from the start, that is, two complete simulations.
+  /// share: false makes everything diverged from the start, that is, two complete simulations. run() throws
+  /// std::logic_error for a NeighbourRule.
   PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
                double end_time, const StreamKey& key, bool share = true);
 
@@ -71,7 +73,11 @@ class PairDynamics {
 
   template <bool passing, CollisionRule Rule>
   void advance(const Rule& rule, double until, const Heartbeat& heartbeat) {
+    if constexpr (NeighbourRule<Rule>) throw std::logic_error("pairs have no rule that changes a neighbour");
     const Scattering<Rule, passing> scatter(chain_, rule);
+    const auto scatterers = [this](bool perturbed) {
+      return [this, perturbed](std::uint32_t cell) -> double& { return scatterers_[cell][perturbed]; };
+    };
     const std::uint32_t particles = chain_.particles();
     const auto arrive = [&](Flight flight, EventQueue::Cursor& cursor) {
       const std::uint32_t cell = flight.target;
@@ -81,7 +87,7 @@ class PairDynamics {
         if (index == shared) {
           Flight copy = flight;
           copy.particle += particles;
-          scatter(copy, scatterers_[cell][1], free_flight_);
+          scatter(copy, scatterers(true), free_flight_);
           cursor.add(copy);
           index = diverge_particle(flight, copy);
           ++separate_events_;
@@ -89,7 +95,7 @@ class PairDynamics {
           diverge_scatterer(cell);
         }
       }
-      scatter(flight, scatterers_[cell][perturbed], free_flight_);
+      scatter(flight, scatterers(perturbed), free_flight_);
       cursor.reschedule<true>(flight);
       diverged_flights_[index][perturbed] = flight;
       ++(index == shared ? shared_events_ : separate_events_);

@@ -33,18 +33,25 @@ class Scattering {
       neighbours_.push_back({cell + 1 < cells_ ? cell + 1 : 0, cell > 0 ? cell - 1 : cells_ - 1});
   }
 
-  /// Ends the flight at the scatterer w and begins the next one, in place.
-  Departure operator()(Flight& flight, double& w, const FreeFlight& free_flight) const {
-    double u = flight.velocity, scatterer = w;  // copies: for the compiler the references may alias
+  /// Ends the flight at its scatterer and begins the next one, in place. w(cell) is the scaled velocity of a
+  /// scatterer.
+  template <class Scatterer>
+  [[gnu::always_inline]] Departure operator()(Flight& flight, const Scatterer& w,
+                                              const FreeFlight& free_flight) const {
+    // Copies: for the compiler the references may alias.
+    double u = flight.velocity, scatterer = w(flight.target);
     [[maybe_unused]] const std::uint64_t draw = flight.draws;
-    if constexpr (RandomRule<Rule> || passing) ++flight.draws;
-    if constexpr (RandomRule<Rule>) {
+    if constexpr (DrawingRule<Rule> || passing) ++flight.draws;
+    if constexpr (DrawingRule<Rule>) {
       RandomStream random = free_flight.of_collision(flight.particle, draw);
-      collide_(u, scatterer, flight.target, random);
+      if constexpr (NeighbourRule<Rule>)
+        collide_(u, scatterer, w(neighbours_[flight.target][random.uniform() < 0.5]), flight.target, random);
+      else
+        collide_(u, scatterer, flight.target, random);
     } else {
       collide_(u, scatterer, flight.target);
     }
-    w = scatterer;
+    w(flight.target) = scatterer;
     std::int64_t cells = 1;
     if constexpr (passing) cells = free_flight.cells(flight.particle, draw);
     flight.velocity = u;

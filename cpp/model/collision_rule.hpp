@@ -37,6 +37,7 @@ struct RuleProperties {
   InvariantMeasure invariant;
   std::span<const RuleOption> options{};                         // arguments of its constructor, after sigma
   bool (*is_elastic)(std::span<const double> values) = nullptr;  // whether these options make it Elastic
+  bool changes_neighbour = false;                                // NeighbourRule
 };
 
 /// A rule by name, with the values of its options in their order.
@@ -58,6 +59,18 @@ template <class Rule>
 concept RandomRule = requires(const Rule& rule, double& u, double& w, std::uint32_t cell,
                               RandomStream& random) { rule(u, w, cell, random); };
 
+/// The same for a rule that may also change the scaled velocity of a neighbouring scatterer, which the
+/// dynamics choose: left or right with equal probability, at the end of an open chain the one that exists.
+/// Pending events do not depend on a scatterer, so no time of arrival changes.
+template <class Rule>
+concept NeighbourRule = requires(const Rule& rule, double& u, double& w, double& neighbour,
+                                 std::uint32_t cell, RandomStream& random) {
+  rule(u, w, neighbour, cell, random);
+};
+
+template <class Rule>
+concept DrawingRule = RandomRule<Rule> || NeighbourRule<Rule>;
+
 /// The rule with this sigma and these values of its options. Throws std::invalid_argument unless -1 <= sigma
 /// <= 1.
 template <class Rule>
@@ -73,7 +86,8 @@ template <class Rule>
 concept CollisionRule =
     std::derived_from<Rule, Elastic> && std::same_as<decltype(Rule::properties), const RuleProperties> &&
     requires(double sigma, std::span<const double> options) { rule_from<Rule>(sigma, options); } &&
-    (DeterministicRule<Rule> || RandomRule<Rule>);
+    (DeterministicRule<Rule> || DrawingRule<Rule>) &&
+    NeighbourRule<Rule> == Rule::properties.changes_neighbour;
 
 /// A rule that draws the direction of the particle independently of everything else. In a closed chain, that
 /// of the first flight is drawn too.

@@ -8,13 +8,15 @@
 #include <variant>
 
 #include "model/rules/elastic.hpp"
+#include "model/rules/printed.hpp"
 #include "model/rules/random_direction.hpp"
 #include "model/rules/reversal.hpp"
+#include "model/rules/rotation.hpp"
 
 namespace lorentz {
 
 /// The rules of --rule. The first is the default.
-using Rules = std::variant<Elastic, RandomDirection, Reversal>;
+using Rules = std::variant<Elastic, RandomDirection, Reversal, Rotation, Printed>;
 
 namespace rules {
 

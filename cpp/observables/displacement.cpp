@@ -36,7 +36,7 @@ struct Tallies : ClosedTallies {
   Axis time;
   Tally square = tally("variance", {time}, "length^2", "<x^2>, no mean subtracted");
   Tally centre_square =
-      tally("centre_of_mass", {time}, "length^2", "Mean square of the particles' mean displacement");
+      tally("centre_of_mass_variance", {time}, "length^2", "Mean square of the particles' mean displacement");
   ScalarTally momentum_square =
       tally("momentum_square", "1", "Square of the total momentum over its mean, minus 1; mean 0");
 
@@ -102,7 +102,7 @@ Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
   return possible ? reduced
-                  : Group::Prepared{plain, ControlVariates{false, reduced.control_variates->needed}};
+                  : Group::Prepared{plain, ControlVariates{0, reduced.control_variates->needed}};
 }
 
 std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallies) {

@@ -66,6 +66,10 @@ void declare(Options& options, Parameters& parameters) {
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const Parameters& parameters) {
   validate(parameters.ring.scattering);
+  if (const RuleProperties& rule = parameters.ring.scattering.rule.properties(); rule.changes_neighbour)
+    throw UsageError(fmt::format(
+        "--rule {} changes a neighbour, for which pairs of trajectories have no code. Choose another --rule.",
+        rule.name));
   const double of_scatterers = parameters.scatterer_temperature.value_or(0);
   const double hottest = std::max({2 * parameters.energy, 2 * parameters.pulse_energy, of_scatterers});
   const ClosedChain chain = parameters.ring.chain();
@@ -73,6 +77,10 @@ void validate(const Parameters& parameters) {
   require_resolved(chain.cell_length / std::sqrt(hottest),
                    parameters.relaxation_time + parameters.times.back(),
                    "--cell-length, --relaxation-time, --times");
+  if (parameters.pulse_energy <= parameters.energy)
+    throw UsageError(
+        "--pulse-energy does not exceed --energy: the pulse would take energy away, and no peak moves. Choose "
+        "a higher one.");
   if (parameters.pulse_cells > chain.cells)
     throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
   if (parameters.pulse_cells % 2 == 0)
@@ -208,6 +216,13 @@ std::vector<double> ring_closed(const Records& records, const Tallies& tallies) 
   return closed;
 }
 
+/// Whether the energy of the pulse exceeds five of its standard errors: otherwise a peak is noise.
+bool injected(const Records& records, const Tallies& tallies) {
+  const Estimate energy = jackknife(
+      records, [&](TallyMeans mean) { return std::vector{mean[tallies.injected_energy]}; });
+  return !(energy.mean.front() <= 5 * energy.standard_error.front());
+}
+
 Group spreading(const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
   const Axis distance =
@@ -233,7 +248,7 @@ Group spreading(const Tallies& tallies) {
     PeakWindows windows = peak_windows(records, tallies.energy_difference, times.size());
     const std::vector<double> closed = ring_closed(records, tallies);
     for (std::size_t k = 0; k < times.size(); ++k)
-      if (closed[k] == 1) windows[k].reset();
+      if (closed[k] == 1 || !injected(records, tallies)) windows[k].reset();
     return [=](TallyMeans mean) {
       const MovingPeak peak(mean[tallies.energy_difference], times, windows);
       std::vector<double> values = peak.values();

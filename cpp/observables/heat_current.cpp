@@ -5,10 +5,10 @@
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
-/// with A = 0 where momentum is not conserved. For gamma < N, A and D have other values. The totals of a ring
-/// fluctuate: at fixed totals <Q^2> would be smaller by a part of order t^2/N. Sound must not travel around
-/// the ring within the longest time. Without conserved momentum it decays, but after many collisions, unless
-/// the direction of a particle is drawn in each.
+/// with A = 0 where momentum is not conserved. The totals of a ring fluctuate: at fixed totals <Q^2> would be
+/// smaller by a part of order t^2/N. Sound must not travel around the ring within the longest time. Without
+/// conserved momentum it decays, but after many collisions, unless the direction of a particle is drawn in
+/// each.
 #include "observables/heat_current/heat_current.hpp"
 
 #include <algorithm>

@@ -174,13 +174,13 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
     const std::string word = argv[i], name = word.substr(0, word.find('='));
     const auto option = std::ranges::find(options_, name, &Option::name);
     if (option == options_.end() || option->role != Role::result) continue;
-    words_ += (words_.empty() ? "" : " ") + word;
-    if (name == word && !option->is_flag()) words_ += ' ' + std::string(argv[++i]);
+    option_words_ += (option_words_.empty() ? "" : " ") + word;
+    if (name == word && !option->is_flag()) option_words_ += ' ' + std::string(argv[++i]);
   }
   constexpr std::size_t most = 60'000;  // an attribute of an HDF5 file has at most 64 kB
   std::size_t of_parameters = 0;
   for (const Parameter& each : parameters()) of_parameters += each.name.size() + as_text(each.value).size();
-  if (const std::size_t length = std::max(of_parameters, words_.size()); length > most)
+  if (const std::size_t length = std::max(of_parameters, option_words_.size()); length > most)
     throw UsageError(fmt::format(
         "the options take {} characters, more than the {} that a result can state. Give shorter lists.",
         length, most));
@@ -195,6 +195,7 @@ std::vector<Parameter> Options::parameters() const {
   std::vector<Parameter> result;
   for (const Option& option : options_)
     if (option.role == Role::result) result.push_back({option.name.substr(2), option.value(), option.units});
+  for (Parameter& each : result) std::ranges::replace(each.name, '-', '_');
   std::ranges::sort(result, {}, &Parameter::name);
   return result;
 }

@@ -123,15 +123,15 @@ class Options {
 
   /// Words of the command line for options that determine the result, as they were given, separated by
   /// spaces: a part of the result's identity (workflow/lib/identity.py).
-  const std::string& words() const { return words_; }
+  const std::string& option_words() const { return option_words_; }
 
-  /// Values of all options that determine the result, sorted by name.
+  /// Values of all options that determine the result, sorted by name, as relaxation_time of --relaxation-time.
   std::vector<Parameter> parameters() const;
 
  private:
   void add(Option option);
 
-  std::string program_, words_;
+  std::string program_, option_words_;
   std::unique_ptr<CLI::App> app_;
   std::vector<Option> options_;
 };

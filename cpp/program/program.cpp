@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <limits>
@@ -95,7 +98,7 @@ void Program::require_replaceable() const {
   if (overwrite_ || !std::filesystem::exists(output_, unknown)) return;
   const Hdf5Reader file(output_);
   if (!file.has_attribute("/provenance", "source_hash", std::string(build_info.source_hash)) ||
-      !file.has_attribute("/provenance", "words", options_.words()))
+      !file.has_attribute("/provenance", "option_words", options_.option_words()))
     throw UsageError(fmt::format(
         "'{}' exists and is not a result of these options and sources. Choose another --output, or replace "
         "it with --overwrite.",
@@ -115,9 +118,9 @@ ExitStatus Program::write(const Outcome& outcome) const {
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{4}},
+      {"format_version", std::int64_t{5}},
       {"program", options_.program()},
-      {"words", options_.words()},
+      {"option_words", options_.option_words()},
       {"source_hash", std::string(build_info.source_hash)},
       {"compiler", std::string(build_info.compiler)},
       {"flags", std::string(build_info.flags)},
@@ -126,6 +129,7 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"target_quantity", outcome.target_quantity},
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},
+      {"error_without_control_variates", outcome.plain_error},
       {"converged", std::string(names.at(static_cast<std::size_t>(outcome.convergence)))},
   };
   for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
@@ -147,11 +151,13 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
   const std::vector<Description> described = text ? std::vector<Description>() : quantities();
   if (describe_) text = describe(options_, description_, described);
   if (text) {
-    fmt::print("{}", *text);
+    if (std::fputs(text->c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+      throw UsageError(
+          fmt::format("the standard output cannot be written: {}. Choose another.", std::strerror(errno)));
     return 0;
   }
-  if (output_.empty())
-    throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
+  if (output_.empty() || output_ == "-")
+    throw UsageError("--output has no file, which the results need. Add --output FILE.h5.");
   for (const std::string& path : {output_, cost_path(output_)}) require_writable(path);
   require_replaceable();
   return static_cast<int>(compute());

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Outcome {
   std::string target_quantity{};
   double target_error = 0;    // NaN without a target
   double achieved_error = 0;  // relative as the target; NaN if it is not known, as where all replicas agree
+  double plain_error = std::numeric_limits<double>::quiet_NaN();  // without control variates, if there are any
   Convergence convergence = Convergence::not_reached;
 };
 

@@ -77,6 +77,14 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
   return program_.run(argc, argv, plan, [this] { return compute(); });
 }
 
+/// The group that estimates this quantity.
+const Group& StudyProgram::group_of(const std::string& name) const {
+  return *std::ranges::find_if(study_.groups, [&](const Group& group) {
+    const std::vector<Description> all = group.descriptions();
+    return std::ranges::find(all, name, &Description::name) != all.end();
+  });
+}
+
 std::vector<Description> StudyProgram::quantities() const {
   std::vector<Description> all;
   for (const Group& group : study_.groups)
@@ -103,7 +111,7 @@ void StudyProgram::prepare() {
         "--seed is missing: random numbers follow from it. Give every run its own, as --seed 1.");
   require_memory();
   checkpoint_.path = program_.output() + ".checkpoint";
-  checkpoint_.identity = fmt::format("{} {}", options().words(), build_info.source_hash);
+  checkpoint_.identity = fmt::format("{} {}", options().option_words(), build_info.source_hash);
   if (std::error_code unknown; std::filesystem::is_regular_file(checkpoint_.path, unknown)) {
     if (resume_) finished_ = checkpoint_.load();
     if (finished_.empty() && !options().given("--overwrite"))
@@ -242,9 +250,16 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
   }
   for (const Group& group : study_.groups)
     for (Quantity& quantity : group.estimate(records)) outcome.results.push_back(std::move(quantity));
+  const auto relative_error = [&](const Results& results) {
+    const Quantity& quantity = quantity_named(results, study_.target);
+    const double mean = quantity.mean.front(), error = quantity.standard_error.front();
+    return error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
+  };
   const Quantity& quantity = quantity_named(outcome.results, study_.target);
-  const double mean = quantity.mean.front(), error = quantity.standard_error.front();
-  outcome.achieved_error = error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
+  const double mean = quantity.mean.front();
+  outcome.achieved_error = relative_error(outcome.results);
+  outcome.plain_error =
+      quantity.control_variates ? relative_error(group_of(study_.target).without_control_variates().estimate(records)) : none;
   if (target_error_ == 0)
     outcome.convergence = Convergence::no_target;
   else if (std::isfinite(mean) && StoppingRule::reached(replicas, outcome.achieved_error / target_error_))

@@ -48,6 +48,7 @@ class StudyProgram {
 
  private:
   std::vector<Description> quantities() const;
+  const Group& group_of(const std::string& name) const;
   void require_memory() const;
   void prepare();
   ExitStatus compute();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -35,10 +36,14 @@ double ScatteringParameters::mean_scatterings() const {
 }
 
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range) {
-  options.integer("--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
-  options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
+  declare_without_gamma(options, parameters);
   options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
                        "Mean number of scatterings in N cells; N: every scatterer scatters");
+}
+
+void declare_without_gamma(Options& options, ScatteringParameters& parameters) {
+  options.integer("--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
+  options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
   declare(options, parameters.rule);
 }
 
@@ -99,6 +104,16 @@ void require_resolved(double time, double end, const std::string& options) {
 void validate(const ScatteringParameters& parameters) {
   require_probability(parameters.gamma, parameters.cells);
   validate(parameters.rule);
+  const RuleProperties& rule = parameters.rule.properties();
+  if (rule.changes_neighbour && parameters.cells < 2)
+    throw UsageError(fmt::format(
+        "--rule {}: a single scatterer has no neighbour. Choose at least 2 --cells, or another --rule.",
+        rule.name));
+  if (rule.name == Printed::properties.name && std::abs(parameters.sigma) == 1)
+    throw UsageError(
+        fmt::format("--sigma {}: the paper's formula has no such limit. Choose a --sigma between -1 and 1, or "
+                    "--rule elastic.",
+                    parameters.sigma));
 }
 
 void declare(Options& options, Reservoir& left, Reservoir& right) {

@@ -38,6 +38,7 @@ struct ScatteringParameters {
 
 /// Declares --cells, --sigma, --gamma and --rule.
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range);
+void declare_without_gamma(Options& options, ScatteringParameters& parameters);
 
 /// Declares --rule and the options of all rules.
 void declare(Options& options, RuleParameters& parameters);

@@ -14,17 +14,19 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// The least number of records for a regression on standardised columns; 0 if none varies.
-std::size_t records_needed(const MatrixXd& controls) {
-  const auto varying = static_cast<std::size_t>((controls.colwise().squaredNorm().array() > 0).count());
-  return varying > 0 ? std::max(3 * varying, varying + 8) : 0;
+/// Number of standardised columns that vary.
+std::size_t varying(const MatrixXd& controls) {
+  return static_cast<std::size_t>((controls.colwise().squaredNorm().array() > 0).count());
 }
+
+/// The least number of records for a regression on so many columns.
+std::size_t records_needed(std::size_t columns) { return columns > 0 ? std::max(3 * columns, columns + 8) : 0; }
 
 }  // namespace
 
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {
   const MatrixXd x = standardised(records, regression.controls), x_centred = centred(x);
-  const std::size_t needed = records_needed(x);
+  const std::size_t needed = records_needed(varying(x));
   if (needed == 0 || records.size() < needed) return {};
   const Index rows = x.rows();
 
@@ -70,11 +72,13 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
   constexpr double determined = 1e-12;
   Records reduced = records;
   Columns measured;
-  std::size_t needed = 0;
+  std::size_t needed = 0, fitted = 0;
   for (const Regression& regression : regressions) {
-    needed = std::max(needed, records_needed(standardised(records, regression.controls)));
+    const std::size_t columns = varying(standardised(records, regression.controls));
+    needed = std::max(needed, records_needed(columns));
     const std::optional<Records> corrected = regress_out(records, regression);
     if (!corrected) continue;
+    fitted = std::max(fitted, columns);
     for (std::size_t k = 0; k < corrected->width(); ++k) {
       const std::size_t column = regression.measured[k];
       for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = (*corrected)[i][k];
@@ -86,7 +90,7 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
   }
   const bool used = !measured.empty() && variance_ratio(reduced, records, measured) < 1;
   if (!used) reduced = records;
-  return {std::move(reduced), ControlVariates{used, needed}};
+  return {std::move(reduced), ControlVariates{used ? fitted : 0, needed}};
 }
 
 }  // namespace lorentz

@@ -12,9 +12,10 @@
 
 namespace lorentz {
 
-/// Whether control variates were used, and the number of replicas that they need.
+/// Number of control variates that were fitted to a quantity, 0 if none was used, and the number of replicas
+/// that they need.
 struct ControlVariates {
-  bool used = false;
+  std::size_t used = 0;
   std::size_t needed = 0;
 };
 
@@ -78,6 +79,13 @@ class Group {
                   std::function<Estimate(const Records&)> estimate);
 
   std::vector<Description> descriptions() const;
+
+  /// The same quantities of the records as measured.
+  Group without_control_variates() const {
+    Group plain = *this;
+    plain.prepare_ = {};
+    return plain;
+  }
 
   /// Throws std::logic_error if a formula gives more or fewer values than described.
   Results estimate(const Records& measured) const;

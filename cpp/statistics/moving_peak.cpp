@@ -133,20 +133,25 @@ std::vector<double> MovingPeak::exponents_from() const {
 }
 
 double MovingPeak::exponent_from(std::size_t first) const {
+  return exponent_between(times_[first], times_.back(), 1);
+}
+
+double MovingPeak::exponent_between(double begin, double end, double least_ratio) const {
   std::vector<double> times, heights;
-  for (std::size_t k = first; k < times_.size(); ++k) {
-    if (std::isnan(heights_[k])) continue;
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    if (std::isnan(heights_[k]) || times_[k] < begin || times_[k] > end) continue;
     times.push_back(times_[k]);
     heights.push_back(heights_[k]);
   }
-  return times.size() < 2 ? none : -fit_power(times, heights, times.front(), times.back());
+  if (times.size() < 2 || times.back() < least_ratio * times.front()) return none;
+  return -fit_power(times, heights, times.front(), times.back());
 }
 
 std::vector<double> MovingPeak::exponents_by_octave() const {
   const std::vector<double> ends = octaves(times_);
   std::vector<double> values;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-    values.push_back(-fit_power(times_, heights_, ends[k], ends[k + 1]));
+    values.push_back(exponent_between(ends[k], ends[k + 1], std::sqrt(ends[k + 1] / ends[k])));
   return values;
 }
 

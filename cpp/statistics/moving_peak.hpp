@@ -49,11 +49,14 @@ class MovingPeak {
 
   /// Fits over octaves. Between neighbouring times, heights that differ by the bias of the peak's fit, 1.3 %
   /// at the first times, would change the exponent by 0.06; over an octave of four times by less than 0.02.
+  /// Times without a peak are left out; NaN if the others cover less than half of the octave.
   std::vector<double> exponents_by_octave() const;
 
  private:
   /// Minus the slope of ln height against ln t over the times with a peak, from time number `first` on.
   double exponent_from(std::size_t first) const;
+  /// The same over the times with a peak in [begin, end]; NaN unless the last is `least_ratio` times the first.
+  double exponent_between(double begin, double end, double least_ratio) const;
 
   std::span<const double> profiles_;
   std::vector<double> times_;

@@ -22,6 +22,7 @@ class Chain:
     gamma: float | str = "N"
     rule: str = "elastic"
     reversal_probability: float | str = "none"
+    rotation_probability: float | str = "none"
     cells: int = 6
     particles_per_cell: int = 1
     temperature: float = 500
@@ -52,11 +53,10 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     gamma = chain.cells if chain.gamma == "N" else chain.gamma
     times = chain.observation_time * 10 ** np.arange(-DECADES, 0.01, EVERY / POINTS_PER_DECADE)
     options = asdict(chain) | {"gamma": gamma, "times": ",".join(map(str, times)), "seed": 1}
-    reversal = {"random-direction": (0.5, 0), "elastic": (0, 0)}
-    rule, probability = options.pop("rule"), options.pop("reversal_probability")
-    options |= dict(
-        zip(("particle_reversal", "scatterer_reversal"), reversal.get(rule, (0, probability)), strict=True)
-    )
+    names = ("particle_reversal", "scatterer_reversal", "rotation")
+    reversal, rotation = (options.pop(f"{name}_probability") for name in ("reversal", "rotation"))
+    noise = {"random-direction": (0.5, 0, 0), "reversal": (0, reversal, 0), "rotation": (0, 0, rotation)}
+    options |= dict(zip(names, noise.get(options.pop("rule"), (0, 0, 0)), strict=True))
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)
     moments, scatterings, persistent, waits = np.split(rows, 2 * len(times) + np.arange(3), axis=1)
@@ -115,6 +115,8 @@ CHAINS = [
     *(Chain(sigma, gamma) for sigma, gamma in ((0.5, "N"), (-0.4, 3), (-0.4, 0.3))),
     *(Chain(sigma, gamma, "random-direction") for sigma, gamma in ((-0.4, "N"), (0.5, 1))),
     *(Chain(sigma, gamma, "reversal", 0.3) for sigma, gamma in ((0.5, "N"), (-0.4, 1))),
+    *(Chain(*gas, "rotation", rotation_probability=0.3) for gas in ((0.5, "N"), (-0.4, 1))),
+    Chain(-0.9, "N", "rotation", rotation_probability=1, cells=2, particles_per_cell=3),
 ]
 
 
@@ -129,6 +131,6 @@ def test_another_chain_does_not_agree(measure: Measure) -> None:
     chain = Chain(gamma=1)
     measurements = measured(measure, chain)
     assert agree(*scores(measurements, chain).values())
-    reversal = {"rule": "reversal", "reversal_probability": 0.3}
-    for mutant in ({"sigma": 0.42}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}, reversal):
+    noise = ({"rule": name, f"{name}_probability": 0.3} for name in ("reversal", "rotation"))
+    for mutant in ({"sigma": 0.42}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}, *noise):
         assert not agree(*scores(measurements, replace(chain, **mutant)).values()), mutant

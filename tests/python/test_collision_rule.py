@@ -13,6 +13,7 @@ UNEQUAL = {"nu_left": 30, "nu_right": 10, "temperature_left": 100, "temperature_
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
 RANDOM = {"rule": "random-direction"}
 REVERSAL = {"rule": "reversal", "reversal_probability": 0.1}
+ROTATION = {"rule": "rotation", "rotation_probability": 0.5}
 
 
 def score(quantity: Quantity, expected: float | np.ndarray) -> float:
@@ -43,20 +44,26 @@ def test_currents_of_independent_walkers(
 
 
 @pytest.mark.parametrize(
-    ("name", "quantity"),
-    [("displacement", "variance"), ("energy_pulse", "energy_difference"), ("momentum_flux", "flux")],
+    ("name", "quantity", "rule"),
+    [
+        ("displacement", "variance", "reversal"),
+        ("energy_pulse", "energy_difference", "reversal"),
+        ("momentum_flux", "flux", "reversal"),
+        ("heat_current", "heat_variance", "rotation"),
+        ("conductivity", "energy_current", "rotation"),
+    ],
 )
-def test_without_reversal_the_rule_is_elastic(measure: Measure, name: str, quantity: str) -> None:
-    """Bit for bit. Detected mistake: one reversal in a hundred collisions."""
+def test_without_noise_the_rule_is_elastic(measure: Measure, name: str, quantity: str, rule: str) -> None:
+    """Bit for bit. Detected mistake: one event of the noise in a hundred collisions."""
     elastic = measure(name, (0, 4))[quantity].mean
     never, seldom = (
-        measure(name, (0, 4), rule="reversal", reversal_probability=p)[quantity].mean for p in (0, 0.01)
+        measure(name, (0, 4), rule=rule, **{f"{rule}_probability": p})[quantity].mean for p in (0, 0.01)
     )
     assert np.array_equal(elastic, never)
     assert not np.array_equal(elastic, seldom)
 
 
-@pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N")])
+@pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N"), (ROTATION, "N"), (ROTATION, 3)])
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8].
     Detected mistake: temperatures that are 2 % too high."""

@@ -16,9 +16,11 @@ BINS, MAX = 20, 60
 
 
 @cache
-def reference(cells: int, gamma: float, relaxation: float, observation: float) -> dict[str, np.ndarray]:
+def reference(
+    cells: int, gamma: float, relaxation: float, observation: float, rotation: float = 0
+) -> dict[str, np.ndarray]:
     """Measurements of the reference simulator with the default baths, [replica, value]."""
-    chain = {"cells": cells, "cell_length": 1 / cells, "sigma": 0.5, "gamma": gamma, **BATHS}
+    chain = {"cells": cells, "cell_length": 1 / cells, "sigma": 0.5, "gamma": gamma, "rotation": rotation, **BATHS}
     times = {"relaxation_time": relaxation, "observation_time": observation}
     bins = {"momentum_bins": BINS, "momentum_max": MAX}
     rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1)
@@ -41,11 +43,16 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
     return difference[often] / np.hypot(quantity.standard_error.ravel(), error)[often]
 
 
-@pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (8, "N"), (8, 4)])
-def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: str | float) -> None:
-    expected = reference(cells, cells if gamma == "N" else gamma, 5, 15)
+@pytest.mark.parametrize(
+    ("cells", "gamma", "rotation"), [(1, "N", 0), (8, "N", 0), (8, 4, 0), (8, "N", 0.3), (3, 2, 1)]
+)
+def test_against_the_reference_simulator(
+    measure: Measure, cells: int, gamma: str | float, rotation: float
+) -> None:
+    expected = reference(cells, cells if gamma == "N" else gamma, 5, 15, rotation)
     options = {"cells": cells, "gamma": gamma, "start": "empty", "replicas": 150, "seed": 5}
     options |= {"relaxation_time": 5, "observation_time": 15}
+    options |= {"rule": "rotation", "rotation_probability": rotation} if rotation else {}
 
     profile = measure("steady_profile", **options, momentum_bins=BINS)
     for name in ("temperature_scatterer", "temperature_particle", "density", "rate_right", "rate_left",

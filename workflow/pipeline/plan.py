@@ -136,9 +136,10 @@ class Selection:
         given = {"QUALITY": self.quality, **{key.upper(): getattr(self, key) for key in OVERRIDES}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
-    def with_effort(self, panel: str, run: str, options: Options, scale: float | None) -> Options:
-        """Options of a replicated run with its effort as options of the program, and its seed. scale:
-        reference value of the error where the target may be 0."""
+    def with_effort(self, names: str, options: Options, scale: float | None) -> Options:
+        """Options of a replicated run with its effort as options of the program, and its seed. names: of
+        panel and run, or of the panel alone, from which the seed follows; scale: reference value of the
+        error where the target may be 0."""
         own = {key: value for key, value in options.items() if key not in ("replicas", "error")}
         replicas, error = options.get("replicas"), options.get("error")
         if self.replicas is not None or self.error is not None:
@@ -148,8 +149,7 @@ class Selection:
         else:
             own["target-error"] = error
             own |= {} if scale is None else {"target-scale": scale}
-        names = f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}"
-        return own | {"seed": seed_of(names)}
+        return own | {"seed": seed_of(names if self.seed is None else f"{names}/{self.seed}")}
 
 
 def seed_of(text: str) -> int:
@@ -282,6 +282,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
         own = dict(panel["series"][series])
         own.pop("program", None)
         replicated, scale = "replicas" in options_of_programs()[program], own.pop("target-scale", None)
+        common_seed = own.pop("common-seed", False)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))
         physics = {**panel.get("common", {}), **own}
@@ -293,7 +294,11 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(chosen.items()))])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
-            completed = selection.with_effort(name, run, given, scale) if replicated else given
+            completed = (
+                selection.with_effort(name if common_seed else f"{name}/{run}", given, scale)
+                if replicated
+                else given
+            )
             runs.append(Run(run, program, completed, series))
     uses, reads = (tuple(panel.get(key, ())) for key in ("uses", "reads"))
     beyond = panel.get("beyond", False)

@@ -90,6 +90,12 @@ class Elastic {
   double root_mass() const { return root_mass_; }
 
  protected:
+  /// For rules with another unit of w.
+  void set_scale(double root_mass, double scatterer_scale) {
+    root_mass_ = root_mass;
+    scatterer_scale_ = scatterer_scale;
+  }
+
   /// The second form.
   void relative(double& u, double& w) const {
     const double relative = scatterer_weight_ * w - particle_weight_ * u;

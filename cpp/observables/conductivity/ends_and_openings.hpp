@@ -36,9 +36,9 @@ class EndsAndOpenings {
         window_(window),
         ends_{EndCell(0, chain, window), EndCell(chain.cells - 1, chain, window)} {}
 
-  [[gnu::always_inline]] void on_collision(const Collision& collision) {
+  [[gnu::always_inline]] void on_scatterer(std::uint32_t cell, double before, double time) {
     for (EndCell& end : ends_)
-      if (collision.scatterer == end.scatterer) end.advance(collision.scatterer_before, collision.time);
+      if (cell == end.scatterer) end.advance(before, time);
   }
 
   [[gnu::always_inline]] void on_flight(const Path& path) {  // called once per event

@@ -48,9 +48,9 @@ inline std::vector<std::size_t> lags(const std::vector<double>& times) {
   return lags;
 }
 
-/// Declares all of them.
+/// Declares all of them; every scatterer scatters.
 inline void declare(Options& options, EquilibriumParameters& parameters) {
-  declare(options, parameters.ring.scattering, positive);
+  declare_without_gamma(options, parameters.ring.scattering);
   options.real("--cell-length", parameters.ring.cell_length, positive, "length",
                "Distance between scatterers");
   options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");

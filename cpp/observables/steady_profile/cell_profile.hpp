@@ -113,9 +113,7 @@ class CellProfile {
 
   [[gnu::always_inline]] void on_flight(const Path& path) { streams_[path.direction()].add(path); }
 
-  void on_collision(const Collision& collision) {
-    advance(collision.scatterer, collision.scatterer_before, collision.time);
-  }
+  void on_scatterer(std::uint32_t cell, double before, double time) { advance(cell, before, time); }
 
   void on_injection(End end, double, double u) { injections_.add(end, u); }
 

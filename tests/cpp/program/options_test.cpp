@@ -130,7 +130,7 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
 TEST(Options, KeepTheirWordsAsGiven) {
   Example example;
   example.parse({"--threads", "2", "--sigma=+.50", "--zero-total-momentum", "--output=a", "--cells", "007"});
-  EXPECT_EQ(example.options.words(), "--sigma=+.50 --zero-total-momentum --cells 007");
+  EXPECT_EQ(example.options.option_words(), "--sigma=+.50 --zero-total-momentum --cells 007");
 }
 
 }  // namespace options_test

@@ -111,6 +111,7 @@ inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
   HeapSimulator<double> chain(sigma, 1, positions, momenta, std::vector<double>(cells, 0));
   chain.scatter_with(gamma / static_cast<double>(cells), generator());
   chain.reverse(of.number("particle-reversal"), of.number("scatterer-reversal"), generator());
+  chain.rotate_with(of.number("rotation"), generator());
 
   ClosedChainWatch watch(*this, momenta);
   const auto run_until = [&](double time) {

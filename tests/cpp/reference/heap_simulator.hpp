@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "reference/rotation.hpp"
+
 namespace reference {
 
 /// Independent reference implementation of the closed chain for tests and timing of the engine: a binary
@@ -48,6 +50,13 @@ class HeapSimulator {
   void reverse(double of_particle, double of_scatterer, std::uint64_t seed) {
     particle_reversed_ = std::bernoulli_distribution(of_particle);
     scatterer_reversed_ = std::bernoulli_distribution(of_scatterer);
+    coin_.seed(seed);
+  }
+
+  /// After every collision rotates the momenta of the particle, its scatterer and a neighbouring one, with this
+  /// probability.
+  void rotate_with(double probability, std::uint64_t seed) {
+    rotated_ = std::bernoulli_distribution(probability);
     coin_.seed(seed);
   }
 
@@ -98,6 +107,11 @@ class HeapSimulator {
         if (particle_reversed_(coin_)) event.p_after = -event.p_after;
         if (scatterer_reversed_(coin_)) event.P_after = -event.P_after;
         P = event.P_after;
+        if (rotated_(coin_)) {
+          const std::size_t step = std::bernoulli_distribution(0.5)(coin_) ? 1 : P_.size() - 1;
+          rotate(event.p_after, P, P_[(next.scatterer + step) % P_.size()], scatterer_mass(), coin_);
+          event.P_after = P;
+        }
         next.p = event.p_after;
       }
       const std::size_t cells = P_.size();
@@ -126,7 +140,7 @@ class HeapSimulator {
   std::priority_queue<Pending> pending_;
   double probability_ = 1;
   std::mt19937_64 generator_;
-  std::bernoulli_distribution particle_reversed_{0}, scatterer_reversed_{0};
+  std::bernoulli_distribution particle_reversed_{0}, scatterer_reversed_{0}, rotated_{0};
   std::mt19937_64 coin_;
 };
 

@@ -21,6 +21,7 @@ inline void run_open_chain(const Arguments& of) {
                                       of.number("temperature-right"),
                                       of.number("relaxation-time"),
                                       of.number("observation-time"),
+                                      of.number("rotation"),
                                       of.count("momentum-bins"),
                                       of.number("momentum-max")};
   for (std::size_t replica = 0; replica < of.count("replicas"); ++replica) {

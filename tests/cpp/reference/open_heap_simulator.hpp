@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "reference/rotation.hpp"
+
 namespace reference {
 
 /// Independent reference implementation of the open chain for tests and timing of the engine: a binary heap,
@@ -15,7 +17,8 @@ namespace reference {
 /// direct counting. It shares no code with the engine.
 struct OpenHeapParameters {
   std::size_t cells;
-  double cell_length, sigma, gamma, nu_left, nu_right, T_left, T_right, relaxation, observation;
+  double cell_length, sigma, gamma, nu_left, nu_right, T_left, T_right, relaxation, observation,
+      rotation;  // probability that a collision is followed by a rotation
   std::size_t bins;
   double momentum_max;
 };
@@ -139,6 +142,13 @@ class OpenHeapSimulator {
     const double sigma = parameters_.sigma, p = event.p;
     event.p = -sigma * p + (1 - sigma) * P_[cell];
     P_[cell] = (1 + sigma) * p + sigma * P_[cell];
+    if (std::bernoulli_distribution(parameters_.rotation)(generator_)) {
+      std::size_t other = std::bernoulli_distribution(0.5)(generator_) ? cell + 1 : cell - 1;
+      if (cell == 0) other = 1;
+      if (cell + 1 == parameters_.cells) other = cell - 1;
+      advance(other, event.time);
+      rotate(event.p, P_[cell], P_[other], (1 + sigma) / (1 - sigma), generator_);
+    }
     return true;
   }
 

@@ -87,7 +87,7 @@ TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
   for (int i = 0; i < 20; ++i) lonely.append(std::vector{std::sin(i), i == 3 ? 1. : 0.});
   EXPECT_FALSE(regress_out(lonely, support::on_last(lonely, 1)));
   const Group::Prepared unchanged = reduce_variance(few, {support::on_last(few, 2)});
-  EXPECT_FALSE(unchanged.control_variates->used);
+  EXPECT_EQ(unchanged.control_variates->used, 0U);
   EXPECT_EQ(unchanged.control_variates->needed, 10U);
   EXPECT_EQ(unchanged.records.values(), few.values());
 }
@@ -109,12 +109,12 @@ TEST(ControlVariates, AreUsedOnlyIfTheyHelp) {
                              support::columns(0, 20)),
               0.9);
     const Group::Prepared chosen = reduce_variance(unrelated, {support::on_last(unrelated, 3)});
-    used += chosen.control_variates->used ? 1 : 0;
+    used += chosen.control_variates->used > 0 ? 1 : 0;
     EXPECT_LE(variance_ratio(chosen.records, unrelated, support::columns(0, 20)), 1);
   }
   EXPECT_LT(used, 20);
-  EXPECT_TRUE(
-      reduce_variance(noisy(30, 0.5, 1), {support::on_last(noisy(30, 0.5, 1), 2)}).control_variates->used);
+  const Records related = noisy(30, 0.5, 1);
+  EXPECT_EQ(reduce_variance(related, {support::on_last(related, 2)}).control_variates->used, 2U);
 }
 
 /// A column that is a linear function of the controls stays unchanged; regression would make it a constant
@@ -126,7 +126,7 @@ TEST(ControlVariates, LeaveColumnsThatTheyDetermine) {
     records.append(
         std::vector{source[i][0], 7 + source[i][1] - 2 * source[i][2], source[i][1], source[i][2]});
   const Group::Prepared reduced = reduce_variance(records, {support::on_last(records, 2)});
-  EXPECT_TRUE(reduced.control_variates->used);
+  EXPECT_EQ(reduced.control_variates->used, 2U);
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(reduced.records[i][1], records[i][1]);
     EXPECT_NE(reduced.records[i][0], records[i][0]);

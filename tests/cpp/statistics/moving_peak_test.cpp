@@ -98,6 +98,29 @@ TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentre) {
   EXPECT_NEAR(peak.values().back(), 1, 1e-3);
 }
 
+// Heights 1/t without a peak at the end of an octave. Detected mistakes: the octave is lost; a fit that covers
+// less than half of the octave is kept.
+TEST(MovingPeak, OctavesLeaveOutTimesWithoutAPeak) {
+  const std::vector<double> times{1, 1.2, 1.5, 2, 2.1, 2.2, 4};
+  std::vector<double> mean;
+  for (const double time : times)
+    for (int cell = 0; cell < cells; ++cell) {
+      const double x = (std::abs(cell - centre) - 25) / 4.;
+      mean.push_back(std::exp(-0.5 * x * x) / time);
+    }
+  const Records records = [&] {
+    Records both(mean.size());
+    for (int i = 0; i < 2; ++i) both.append(mean);
+    return both;
+  }();
+  PeakWindows windows = peak_windows(records, Tally{0, records.width()}, times.size());
+  windows[3] = windows[6] = std::nullopt;  // the ends of both octaves
+  const std::vector<double> exponents = MovingPeak(mean, times, windows).exponents_by_octave();
+  ASSERT_EQ(exponents.size(), 2U);
+  EXPECT_NEAR(exponents[0], 1, 1e-3);
+  EXPECT_TRUE(std::isnan(exponents[1]));
+}
+
 // The mean has a peak, but without the second replica the profile rises up to the far side, so that the
 // jackknife gives no error. Detected mistake: only the mean determines the windows.
 TEST(PeakWindows, HaveAPeakInEveryLeaveOneOutMean) {

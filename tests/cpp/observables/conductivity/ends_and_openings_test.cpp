@@ -9,10 +9,6 @@ namespace ends_and_openings_test {
 using namespace lorentz;
 
 /// Collision of a scatterer, with U before and after it.
-Collision hit(std::uint32_t scatterer, double time, double before, double after) {
-  return {time, 0, scatterer, 0, 0, before, after};
-}
-
 /// The expected injections are 0, so that nothing is subtracted from the controls. The window has length 8.
 const OpenChain chain{.cells = 3, .left = {0, 1}, .right = {0, 1}};
 const Window window{2, 10};
@@ -43,8 +39,8 @@ TEST(EndsAndOpenings, Currents) {
 TEST(EndsAndOpenings, Temperatures) {
   const EndTallies tallies;
   EndsAndOpenings observer(chain, window);
-  observer.on_collision(hit(0, 4.5, 2, 4));
-  observer.on_collision(hit(1, 5.5, 100, 100));
+  observer.on_scatterer(0, 2, 4.5);
+  observer.on_scatterer(1, 100, 5.5);
   observer.finish({4, 100, 3}, 10);
   EXPECT_EQ(recorded(observer, tallies, tallies.temperature),
             (std::vector<double>{(2.5 * 4 + 5.5 * 16) / 8, 9}));
