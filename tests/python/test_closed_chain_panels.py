@@ -4,10 +4,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.integrate import quad
 
 from tests.python.plotted import RING, assert_line, assert_points, both, draw, over, result
+from workflow.figures import fig07_inset, fig10
 from workflow.lib.load import Result
 
 
@@ -149,3 +151,33 @@ def test_fig10() -> None:
     np.testing.assert_allclose(rest.exponent_from_here.dropna(), [0.7, 0.71])
     np.testing.assert_allclose(rest.speed_to_next.dropna(), [300, 303])
     assert "from rest goes from 0.6000(60) to 0.6000(66)" in caption
+
+
+def test_fig10_keeps_an_octave_whose_last_height_is_unknown() -> None:
+    """Detected mistakes: the octave is lost; its middle includes the time without a height; its exponent is
+    that of another first time."""
+    time = np.array([1.0, 1.4, 2, 2.8, 4, 5.6, 8])
+    peak = np.where(time == 8, np.nan, 9000 * time**-0.6)
+    from_each = ([0.61, 0.62, 0.63, 0.6, 0.64, np.nan], {"from": time[:-1]})
+    long = result("long", PULSE, peak=(peak, {"time": time}), peak_position=(time, {"time": time}), damping_exponent_from=from_each,
+                  peak_speed=(time[1:], {"middle": time[1:]}), local_damping_exponent=([0.6, 0.6, np.nan], {"until": [2.0, 4, 8]}))  # fmt: skip
+    _, table, caption = draw("fig10", [long])
+    octaves = table.dropna(subset="octave_exponent").set_index("time")
+    np.testing.assert_allclose(octaves.octave_middle, [2**0.5, 8**0.5, (4 * 5.6) ** 0.5])
+    np.testing.assert_allclose(octaves.octave_exponent, [0.6, 0.6, 0.64])
+    assert octaves.octave_exponent_error[5.6] == long["damping_exponent_from"].error[4]
+    assert "from rest goes from 0.6000(60) to 0.6400(87)" in caption
+
+
+def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:
+    """A peak that leaves the centre late, one replica, an exponent that is not defined."""
+    late, single = pulses()
+    late["peak_position"].mean[0] = np.nan
+    axes, *_ = draw("fig09", [late, single])
+    assert_line(axes[2], late["peak"].axes["time"], late["peak_position"].mean[1] * np.array([0.5, 1, 2]))
+    late["peak"].mean[2] = late["local_damping_exponent"].mean[1] = np.nan
+    assert [*fig10.by_octave(late).until] == [0.02, 0.04]
+    single["local_damping_exponent"].error[...] = np.nan
+    assert fig10.exponents(single) == "goes from 0.6 to 0.4"
+    table = pd.DataFrame({"sigma": [-0.5, 0, 0.2, 0.5], "alpha": [1.1, 1.9, np.nan, 1.2], "alpha_error": 0.1})
+    assert [fig07_inset.extreme(table, row) for row in (0, -1)] == ["1.10(10)", "1.20(10)"]
