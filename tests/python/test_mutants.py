@@ -88,4 +88,4 @@ def test_the_mistake_in_python_is_found(patch: Path, tmp_path: Path) -> None:
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 1, f"no test finds that {mistake}: {done.stdout}"
-    assert f"{test} - " in done.stdout
+    assert re.search(rf"^FAILED .*::{test}\b", done.stdout, re.MULTILINE), done.stdout
