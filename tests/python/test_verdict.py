@@ -86,9 +86,9 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
     assert Verdict(BAND, (inside, open_), LEVEL).outcome is Outcome.UNDECIDED
     verdict = Verdict(BAND, (inside, open_, outside), LEVEL)
     assert verdict.outcome is Outcome.CONTRADICTED
-    assert verdict.shown is outside
+    assert verdict.decisive is outside
     near, far = Estimate("", 0.1, 0.001), Estimate("", 0.5, 0.01)
-    assert Verdict(Band(0, math.inf), (far, near), LEVEL).shown is near  # not in units of the errors
+    assert Verdict(Band(0, math.inf), (far, near), LEVEL).decisive is near  # not in units of the errors
 
 
 def test_without_numbers_nothing_is_decided() -> None:

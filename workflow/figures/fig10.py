@@ -85,8 +85,8 @@ def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame)
             )
         style.guide_at(below, -slope, exponent)
     precise = table[table.octave_exponent_error < SPAN].octave_exponent
-    shown = [*(-slope for slope in SLOPES[gamma]), *precise]
-    below.set_ylim(min(shown) - SPAN, max(shown) + SPAN)
+    values = [*(-slope for slope in SLOPES[gamma]), *precise]
+    below.set_ylim(min(values) - SPAN, max(values) + SPAN)
     low, high = above.get_xlim()
     above.set_xlim(low, 1.35 * high)  # room for the names of the guides
 

@@ -50,7 +50,7 @@ def format_with_error(value: float, error: float, systematic: float = 0) -> str:
         "∞" if np.isinf(one) else f"{one:.{digits}f}" if error >= 1 else f"{round(one * 10**digits)}"
         for one in errors
     )
-    return "".join([f"{value:.{digits}f}", *(f"({shown})" for shown in brackets)]).replace("-", "−")
+    return "".join([f"{value:.{digits}f}", *(f"({number})" for number in brackets)]).replace("-", "−")
 
 
 def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
