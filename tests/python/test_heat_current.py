@@ -63,7 +63,9 @@ def of_walkers(time: float, scattered: float) -> float:
 
 
 @pytest.mark.parametrize("scattered", [1.0, 0.3])
-def test_drawn_directions(heat_current: Measure, scattered: float) -> None:
+def test_heat_variance_with_random_directions_is_that_of_walkers(
+    heat_current: Measure, scattered: float
+) -> None:
     gamma = {} if scattered == 1 else {"gamma": 5 * scattered}
     options = {"cells": 5, "replicas": 20000, "sigma": -1, "rule": "random-direction"}
     result = heat_current(**LONGER | options | gamma)

@@ -38,7 +38,7 @@ def transpose(dataset: h5py.Dataset) -> None:
     dataset[...] = dataset[()].T
 
 
-def test_dimensions_follow_their_scales(path: Path) -> None:
+def test_load_takes_the_order_of_dimensions_from_their_scales(path: Path) -> None:
     before = load(path)["flux"]
     assert [*before.axes] == ["bond", "momentum"]
     with h5py.File(path, "r+") as file:
@@ -50,7 +50,7 @@ def test_dimensions_follow_their_scales(path: Path) -> None:
     np.testing.assert_array_equal(after.mean.T, before.mean)
 
 
-def test_frame(path: Path) -> None:
+def test_to_frame_has_the_values_and_units_of_the_file(path: Path) -> None:
     frame = load(path)["flux"].to_frame()
     assert [*frame] == ["bond", "momentum", "mean", "standard_error", "count"]
     with h5py.File(path) as file:
@@ -96,7 +96,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (attribute("format_version", 2), ": format version 2, not 4; remake it with make figures"),
     ],
 )
-def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
+def test_load_refuses_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
     change(path)
     for read in (load, load_provenance):
         with pytest.raises(FormatError) as error:

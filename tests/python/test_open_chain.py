@@ -42,7 +42,7 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (8, "N"), (8, 4)])
-def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: str | float) -> None:
+def test_open_chain_against_the_reference_simulator(measure: Measure, cells: int, gamma: str | float) -> None:
     expected = reference(cells, cells if gamma == "N" else gamma, 5, 15)
     options = {"cells": cells, "gamma": gamma, "start": "empty", "replicas": 150, "seed": 5}
     options |= {"relaxation_time": 5, "observation_time": 15}
@@ -134,7 +134,7 @@ def test_front_of_free_flight(measure: Measure) -> None:
     np.testing.assert_allclose(expected, 1 / (np.e * np.array(times)), rtol=0.02)
 
 
-def test_equilibrium(measure: Measure) -> None:
+def test_open_chain_between_equal_baths_is_gaussian(measure: Measure) -> None:
     """F and g are Gaussian at the temperature of the baths, by moments and by bins; test_collision_rule.py
     tests their temperatures."""
     options = {"cells": 8, "gamma": 1, "replicas": 200, "relaxation_time": 20, "observation_time": 30}
