@@ -30,7 +30,9 @@ BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
 
 
 @pytest.mark.parametrize(("name", "options"), [(name, case) for name, cases in BAD.items() for case in cases])
-def test_refused(program: Program, tmp_path: Path, name: str, options: dict[str, object]) -> None:
+def test_bad_options_are_refused_in_one_line(
+    program: Program, tmp_path: Path, name: str, options: dict[str, object]
+) -> None:
     result = program(name, **options)
     assert result.returncode == 2
     assert result.stdout == ""

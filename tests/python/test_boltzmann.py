@@ -16,7 +16,7 @@ def solve(measure: Measure) -> Measure:
     return partial(measure, "boltzmann")
 
 
-def test_positions(solve: Measure) -> None:
+def test_kinetic_solution_is_at_bonds_scatterers_or_given_positions(solve: Measure) -> None:
     """Bonds and scatterers of a chain; in the continuum all quantities are at the positions given."""
     chain = solve(cells=7)
     np.testing.assert_allclose(chain["flux"].axes["x"], np.arange(8) / 7, rtol=1e-15)
@@ -32,7 +32,7 @@ def test_positions(solve: Measure) -> None:
     assert continuum.converged == "reached"
 
 
-def test_quantities_fit_together(solve: Measure) -> None:
+def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None:
     result = solve(momentum_bins=400, momentum_max=150)
     flux, p = result["flux"].mean, result["flux"].axes["momentum"]
     width = p[1] - p[0]
@@ -59,7 +59,9 @@ def test_quantities_fit_together(solve: Measure) -> None:
 @pytest.mark.parametrize(
     "options", [{}, {"sigma": -0.9, "gamma": 20}, {"sigma": 0.03}, {"cells": 5, "gamma": 5}]
 )
-def test_errors_are_honest(solve: Measure, options: dict) -> None:
+def test_discretisation_errors_cover_the_distance_from_a_finer_solution(
+    solve: Measure, options: dict
+) -> None:
     """The errors of a loose target cover the difference from a much finer solution. Densities, which are not
     truncated at 0, are negative within their errors only."""
     loose = solve(target_error=1e-3, **options)
@@ -74,7 +76,7 @@ def test_errors_are_honest(solve: Measure, options: dict) -> None:
         assert (fine[name].mean >= -fine[name].discretisation_error).all(), name
 
 
-def test_equilibrium(solve: Measure) -> None:
+def test_kinetic_solution_between_equal_baths_is_gaussian(solve: Measure) -> None:
     baths = {"nu_left": 10, "nu_right": 10, "temperature_left": 4, "temperature_right": 4, "momentum_max": 10}
     result = solve(sigma=-0.3, gamma=30, **baths)
     density = result["flux_density"]

@@ -126,7 +126,7 @@ def test_closed_chain_against_the_reference_simulator(measure: Measure, chain: C
     assert agree(*z.values()), z
 
 
-def test_another_chain_does_not_agree(measure: Measure) -> None:
+def test_closed_chain_with_other_parameters_does_not_agree_with_the_reference(measure: Measure) -> None:
     """Detected mistakes: another mass, rate of scattering, temperature, relaxation time or collision rule."""
     chain = Chain(gamma=1)
     measurements = measured(measure, chain)

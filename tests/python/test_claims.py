@@ -3,12 +3,14 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
 from workflow.claims.data import MissingError, combination, ratio
+from workflow.claims.fluxes import largest_distance
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.pipeline.configuration import ConfigurationError
 
@@ -79,3 +81,10 @@ def test_errors_of_ratios_and_sums() -> None:
     assert total.error == pytest.approx(0.5)
     scaled = first / -2 - 1
     assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)
+
+
+def test_the_error_of_a_distance_is_that_of_the_bins_with_particles() -> None:
+    """Bins of width 2, of which the Gaussian of a high temperature fills none: the sum is 0.2 from the second
+    on. The first is empty, and has no error."""
+    momentum, density, error = np.array([[-1, 1, 3], [0, 0.1, 0], [np.nan, 0.05, 0.01]])
+    assert largest_distance(momentum, density, error, 1e12) == pytest.approx((0.2, 0.1), rel=1e-4)

@@ -77,7 +77,7 @@ def test_a_mistake_is_reported_in_one_line(folder: Path, old: str, new: str, nam
 
 
 @pytest.mark.parametrize("content", [None, b"", b"- 1", b"a: \xff"])
-def test_a_file_that_is_no_configuration(folder: Path, content: bytes | None) -> None:
+def test_a_file_that_is_no_yaml_mapping_is_reported_in_one_line(folder: Path, content: bytes | None) -> None:
     (folder / "paper.yaml").unlink()
     if content is not None:
         (folder / "paper.yaml").write_bytes(content)

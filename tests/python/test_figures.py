@@ -10,7 +10,7 @@ import pytest
 
 from tests.python.conftest import ROOT, command_line
 from workflow.lib.caption import DOUBTS
-from workflow.lib.identity import panel_identity, sha256, sources_of_panel, stated
+from workflow.lib.identity import panel_identity, read_identity_line, sha256, sources_of_panel
 from workflow.lib.job import Job
 from workflow.lib.load import NOT_TESTED, load
 
@@ -33,7 +33,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
     record = json.loads(path.read_text())
     sources = sources_of_panel("fig05")
     identity = panel_identity("panel", map(str, paths), sources)
-    assert {stated(content) for content in contents.values()} == {("panel", "smoke", identity)}
+    assert {read_identity_line(content) for content in contents.values()} == {("panel", "smoke", identity)}
     assert (record["panel"], record["quality"], record["identity"]) == ("panel", "smoke", identity)
     assert record["files"] == {kind: sha256(content) for kind, content in contents.items()}
     assert record["parents"] == {str(path): sha256(path.read_bytes()) for path in paths} | sources

@@ -60,7 +60,9 @@ def cpp(tmp_path: Path) -> Path:
         ("observables/mine.cpp", "int main() {}\n", set()),
     ],
 )
-def test_a_change_of_a_source(cpp: Path, path: str, text: str, of: set[str]) -> None:
+def test_source_hash_changes_for_the_programs_that_use_a_source(
+    cpp: Path, path: str, text: str, of: set[str]
+) -> None:
     with (cpp / path).open("a") as file:
         file.write(text)
     assert {program for program in PROGRAMS if source_hash(program, cpp) != source_hash(program)} == of

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import Program
+from workflow.lib import caption
 from workflow.lib.identity import result_identity
-from workflow.lib.load import FormatError, digest, load, load_provenance, nodes_of
+from workflow.lib.load import FormatError, Quantity, Result, digest, load, load_provenance, nodes_of
 
 FLUX = (
     "results/flux"  # over 4 bonds and 4 bins of the momentum, so that lengths do not identify the dimensions
@@ -37,7 +38,7 @@ def transpose(dataset: h5py.Dataset) -> None:
     dataset[...] = dataset[()].T
 
 
-def test_dimensions_follow_their_scales(path: Path) -> None:
+def test_load_takes_the_order_of_dimensions_from_their_scales(path: Path) -> None:
     before = load(path)["flux"]
     assert [*before.axes] == ["bond", "momentum"]
     with h5py.File(path, "r+") as file:
@@ -49,7 +50,7 @@ def test_dimensions_follow_their_scales(path: Path) -> None:
     np.testing.assert_array_equal(after.mean.T, before.mean)
 
 
-def test_frame(path: Path) -> None:
+def test_to_frame_has_the_values_and_units_of_the_file(path: Path) -> None:
     frame = load(path)["flux"].to_frame()
     assert [*frame] == ["bond", "momentum", "mean", "standard_error", "count"]
     with h5py.File(path) as file:
@@ -95,7 +96,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (attribute("format_version", 2), ": format version 2, not 4; remake it with make figures"),
     ],
 )
-def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
+def test_load_refuses_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
     change(path)
     for read in (load, load_provenance):
         with pytest.raises(FormatError) as error:
@@ -150,3 +151,20 @@ def test_a_name_of_another_result_is_refused(path: Path, name: str) -> None:
     attribute(name, "other")(right)
     with pytest.raises(FormatError, match="it contains another result"):
         load(right)
+
+
+def test_the_replicas_of_a_result_are_those_of_its_most_complete_quantity() -> None:
+    """Replicas in which a quantity is not defined do not count for it. A computed value has no error."""
+    counts = {"front": [8, 64], "rate": [32, 32]}
+    quantities = {
+        name: Quantity(np.ones(2), np.ones(2), None, np.array(n), {}, "1", {}, None)
+        for name, n in counts.items()
+    }
+    results = [
+        Result(Path(), {"seed": 1}, {}, quantities),
+        Result(Path(), {"seed": 1}, {}, {"rate": quantities["rate"]}),
+    ]
+    assert results[0].replicas == 64
+    assert caption.replicas(results) == "32 to 64 replicas"
+    with pytest.raises(FormatError, match="computed quantity"):
+        _ = Quantity(np.ones(2), None, np.zeros(2), None, {}, "1", {}, None).error

@@ -25,7 +25,7 @@ def test_slopes_of_a_logarithm_are_its_factor() -> None:
 
 
 @pytest.mark.parametrize("particles", [2, 20])
-def test_the_estimate_conserves_energy(particles: int) -> None:
+def test_quasi_stationary_estimate_conserves_energy(particles: int) -> None:
     """Detected mistakes: a factor of 2 or Λ is missing; the iteration has not converged."""
     time = np.array([1.0, 1e3, 1e40])
     temperature, slow = quasi_stationary(particles, 500, 1, time)

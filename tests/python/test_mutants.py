@@ -1,6 +1,6 @@
 """Mistakes that tests must find: each patch of tests/mutants is applied to a copy of the sources, whose tests
 then fail. Its first line states the mistake and, after a semicolon, the source and the names of the C++ tests,
-or the test of test_figure_numbers.py.
+or the file and the name of a test of tests/python.
 
 The copy is built once in a folder of its own; for a patch only what it changes is compiled.
 """
@@ -17,7 +17,8 @@ import pytest
 from tests.python.conftest import ROOT
 
 PATCHES = sorted((ROOT / "tests/mutants").glob("*.patch"))
-HEAD = re.compile(r"(?P<mistake>.+); (?P<source>\S+_test\.cpp) (?P<tests>\S+)")
+PYTHON_PATCHES = sorted((ROOT / "tests/mutants/python").glob("*.patch"))
+HEAD = re.compile(r"(?P<mistake>.+); (?P<source>\S+_test\.cpp|test_\w+\.py) (?P<tests>\S+)")
 FAILED = "[  FAILED  ] "
 
 pytestmark = pytest.mark.long
@@ -25,7 +26,7 @@ pytestmark = pytest.mark.long
 
 def head(patch: Path) -> re.Match[str]:
     found = HEAD.fullmatch(patch.read_text().partition("\n")[0])
-    assert found, f"{patch.name}: its first line is not 'mistake; source_test.cpp Test.names'"
+    assert found, f"{patch.name}: its first line is not 'mistake; source tests'"
     return found
 
 
@@ -73,19 +74,18 @@ def test_the_mistake_is_found(tree: Tree, patch: Path) -> None:
     assert FAILED in done.stdout, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize(
-    "patch", sorted((ROOT / "tests/mutants/figures").glob("*.patch")), ids=lambda patch: patch.stem
-)
-def test_the_mistake_in_a_figure_is_found(patch: Path, tmp_path: Path) -> None:
-    mistake, _, test = patch.read_text().partition("\n")[0].partition("; ")
-    for name in ("workflow", "tests"):
-        shutil.copytree(ROOT / name, tmp_path / name)
+@pytest.mark.parametrize("patch", PYTHON_PATCHES, ids=lambda patch: patch.stem)
+def test_the_mistake_in_python_is_found(patch: Path, tmp_path: Path) -> None:
+    mistake, source, test = head(patch).groups()
+    for name in ("workflow", "tests", "cpp", "data/claims.csv"):
+        copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        copy(ROOT / name, tmp_path / name)
     (tmp_path / "build").mkdir()
     (tmp_path / "build/describe").symlink_to(ROOT / "build/describe")
-    shutil.copytree(ROOT / "cpp/observables", tmp_path / "cpp/observables")
     subprocess.run(["git", "apply", "--unsafe-paths", "-p1", patch], cwd=tmp_path, check=True)
-    command = [sys.executable, "-m", "pytest", "-q", "tests/python/test_figure_numbers.py", "-k", test]
+    command = [sys.executable, "-m", "pytest", "-q", f"tests/python/{source}", "-k", test]
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 1, f"no test finds that {mistake}: {done.stdout}"
-    assert f"{test} - " in done.stdout
+    assert re.search(rf"^FAILED .*::{test}\b", done.stdout, re.MULTILINE), done.stdout

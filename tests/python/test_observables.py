@@ -62,7 +62,7 @@ def test_displacement_without_a_random_momentum_that_lasts(
     assert result["variance"].control_variates is False
 
 
-def test_walls_confine(measure: Measure) -> None:
+def test_displacement_is_confined_between_walls(measure: Measure) -> None:
     """At sigma = 1 every particle is confined between two scatterers; at -1 it flies freely."""
     confined = measure("displacement", sigma=1, observation_time=100, decades=2)["variance"]
     assert confined.mean.max() <= 1
@@ -83,7 +83,7 @@ def test_a_pulse_has_no_peak_once_it_has_gone_around_the_ring(measure: Measure) 
     )
 
 
-def test_pulse(measure: Measure) -> None:
+def test_pulse_injects_energy_that_is_conserved(measure: Measure) -> None:
     ring = {"cells": 31, "particles_per_cell": 50, "relaxation_time": 0, "times": "0.001,0.01,0.02"}
     result = measure("energy_pulse", replicas=32, pairs_per_replica=4, **ring)
     # The mean energy of 51 degrees of freedom rises from 5000 to 50000 each, and the sum is conserved.

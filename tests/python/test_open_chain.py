@@ -46,7 +46,7 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize(
     ("cells", "gamma", "rotation"), [(1, "N", 0), (8, "N", 0), (8, 4, 0), (8, "N", 0.3), (3, 2, 1)]
 )
-def test_against_the_reference_simulator(
+def test_open_chain_against_the_reference_simulator(
     measure: Measure, cells: int, gamma: str | float, rotation: float
 ) -> None:
     expected = reference(cells, cells if gamma == "N" else gamma, 5, 15, rotation)
@@ -141,7 +141,7 @@ def test_front_of_free_flight(measure: Measure) -> None:
     np.testing.assert_allclose(expected, 1 / (np.e * np.array(times)), rtol=0.02)
 
 
-def test_equilibrium(measure: Measure) -> None:
+def test_open_chain_between_equal_baths_is_gaussian(measure: Measure) -> None:
     """F and g are Gaussian at the temperature of the baths, by moments and by bins; test_collision_rule.py
     tests their temperatures."""
     options = {"cells": 8, "gamma": 1, "replicas": 200, "relaxation_time": 20, "observation_time": 30}

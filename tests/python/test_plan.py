@@ -112,7 +112,7 @@ def test_effort_of_quality_panel_and_series(
         ("smoke_error=0.1_replicas=2", "ERROR and REPLICAS both determine"),
     ],
 )  # fmt: skip
-def test_invalid_efforts(name: str, message: str) -> None:
+def test_selection_refuses_invalid_efforts(name: str, message: str) -> None:
     with pytest.raises(ConfigurationError) as error:
         Selection.parse(name)
     assert str(error.value).startswith(message)

@@ -42,7 +42,7 @@ def accepted(z: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize("gamma", ["N", 1])
-def test_profiles(measure: Measure, gamma: str | int) -> None:
+def test_pulse_profiles_against_the_reference_simulator(measure: Measure, gamma: str | int) -> None:
     times, pairs = TIMES[gamma], PAIRS[gamma]
 
     def pulse(**options: object) -> Result:

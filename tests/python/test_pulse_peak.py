@@ -56,7 +56,7 @@ def free_profile(time: float) -> np.ndarray:
     return profile
 
 
-def test_free_flight(measure: Measure) -> None:
+def test_pulse_peak_of_free_flight_is_exact(measure: Measure) -> None:
     result = measure(
         "energy_pulse", **FREE, pairs_per_replica=100, replicas=100, times=",".join(map(str, TIMES))
     )

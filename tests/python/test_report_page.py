@@ -27,7 +27,7 @@ BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided": Band
         (Estimate("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10⁻¹³"),
     ],
 )
-def test_numbers(number: Estimate, text: str) -> None:
+def test_typeset_numbers_have_both_errors(number: Estimate, text: str) -> None:
     assert typeset.value(number) == text
 
 

@@ -78,13 +78,13 @@ def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
             yield f"{name}/{axis}", values, quantity.axis_units[axis]
 
 
-def misfits(plain: Result, scaled: Result, stated: str | None = None) -> set[str]:
-    """The datasets that do not scale according to the units of the plain result, or to the same stated
-    units for all."""
+def misfits(plain: Result, scaled: Result, units_of_all: str | None = None) -> set[str]:
+    """The datasets that do not scale according to the units of the plain result, or to one
+    unit for all."""
     return {
         path
         for (path, values, units), (_, converted, _) in zip(datasets(plain), datasets(scaled), strict=True)
-        if not agree(values, converted, OTHER(stated or units), 0 if path in COUNTS else ROUNDING)
+        if not agree(values, converted, OTHER(units_of_all or units), 0 if path in COUNTS else ROUNDING)
     }
 
 

@@ -76,7 +76,7 @@ def test_numbers_deep_inside_or_far_outside_are_decided() -> None:
     ],
     ids=lambda value: getattr(value, "label", ""),
 )
-def test_each_case(number: Estimate, outcome: Outcome) -> None:
+def test_verdict_of_one_number_follows_from_its_interval(number: Estimate, outcome: Outcome) -> None:
     verdict = Verdict(BAND, (number,), LEVEL)
     assert verdict.outcome is outcome
 
@@ -86,9 +86,9 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
     assert Verdict(BAND, (inside, open_), LEVEL).outcome is Outcome.UNDECIDED
     verdict = Verdict(BAND, (inside, open_, outside), LEVEL)
     assert verdict.outcome is Outcome.CONTRADICTED
-    assert verdict.shown is outside
+    assert verdict.decisive is outside
     near, far = Estimate("", 0.1, 0.001), Estimate("", 0.5, 0.01)
-    assert Verdict(Band(0, math.inf), (far, near), LEVEL).shown is near  # not in units of the errors
+    assert Verdict(Band(0, math.inf), (far, near), LEVEL).decisive is near  # not in units of the errors
 
 
 def test_without_numbers_nothing_is_decided() -> None:
@@ -103,7 +103,7 @@ def test_bands_as_they_are_written() -> None:
         Band.parse("over 3")
 
 
-def test_level_and_bound() -> None:
+def test_level_of_each_claim_and_systematic_bound() -> None:
     assert 34 * level_of_each(34) == pytest.approx(0.05)
     assert critical(0.05, math.inf) == pytest.approx(1.959964)
     moved = with_systematic(Estimate("", 1.0, 0.1, systematic=0.5), [0.7, 1.1])
@@ -119,7 +119,7 @@ def test_an_unknown_systematic_error_decides_nothing(others: list[float]) -> Non
         assert "∞" in format_with_error(number.value, number.error, number.systematic)
 
 
-def test_wider_bands() -> None:
+def test_wider_band_keeps_its_centre_or_its_open_side() -> None:
     """Detected mistakes: edges are scaled about 0; the open side of a band becomes NaN."""
     assert Band(0.95, 1.05).wider(2) == Band(pytest.approx(0.9), pytest.approx(1.1))
     assert Band.parse("above 0.5").wider(2) == Band(0.5, math.inf)

@@ -118,7 +118,7 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
 
 
 @pytest.mark.parametrize("case", STATES)
-def test_states(project: Project, case: str) -> None:
+def test_audit_and_status_report_stale_edited_and_missing_files(project: Project, case: str) -> None:
     edits, command, status, named = STATES[case]
     paths = [str(project.one(path).relative_to(project.folder)) for _, path, _ in named]
     for edit in edits:

@@ -15,7 +15,7 @@ from PIL import Image
 from workflow.claims.data import Data
 from workflow.claims.judge import judge_all, read_claims
 from workflow.claims.verdict import Outcome
-from workflow.lib.identity import ROOT, stated
+from workflow.lib.identity import ROOT, read_identity_line
 from workflow.pipeline.plan import load_plan, runs_of, stem_of
 from workflow.report.write import write
 
@@ -107,7 +107,7 @@ def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:
         assert link.startswith("https://doi.org/") or link in names or link.strip("#") in ids, link
     for panel in PLAN:
         small, original = gallery / f"{panel}.png", ROOT / f"{stem_of(panel, 'smoke')}.png"
-        assert stated(small.read_bytes()) == stated(original.read_bytes())
+        assert read_identity_line(small.read_bytes()) == read_identity_line(original.read_bytes())
         with Image.open(small, formats=["PNG"]) as picture, Image.open(original, formats=["PNG"]) as large:
             assert picture.width == min(1440, large.width)
 

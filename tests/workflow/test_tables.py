@@ -31,7 +31,7 @@ PLAN = {
 WORDS = 70  # of a caption, besides a sentence on doubts
 
 
-def stated(folder: Path, panel: str) -> tuple[dict[str, str], str]:
+def units_and_caption(folder: Path, panel: str) -> tuple[dict[str, str], str]:
     """Units and caption in the head of a table."""
     _, units, caption, _ = (folder / f"figures/smoke/{panel}.csv").read_text().split("\n", maxsplit=3)
     assert units.startswith(UNITS_LINE)
@@ -72,7 +72,7 @@ def scales(folder: Path, panel: str, name: str, text: str) -> bool:
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_column_scales_as_its_units_and_every_panel_has_a_caption(smoke: Path, panel: str) -> None:
     plain, scaled = tables(smoke, panel)
-    units, caption = stated(smoke, panel)
+    units, caption = units_and_caption(smoke, panel)
     assert len(caption) >= 200
     labels = [name for name in plain if name not in units and name != OPTION_AS_GIVEN]
     pd.testing.assert_frame_equal(plain[labels], scaled[labels])

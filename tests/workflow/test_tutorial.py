@@ -89,7 +89,7 @@ def test_an_observable_of_your_own(own: Project) -> None:
     assert record_of(load_plan("smoke"), "fig05", "smoke") in own.entry("figures", "DRY=yes")
 
 
-def test_grammar(tmp_path) -> None:
+def test_configuration_of_the_tutorial_gives_its_runs(tmp_path) -> None:
     block, runs = (match["text"] for match in BLOCK.finditer(GRAMMAR))
     shutil.copytree(CONFIGURATION, tmp_path, dirs_exist_ok=True)
     with (tmp_path / "paper.yaml").open("a") as file:

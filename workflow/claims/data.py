@@ -1,13 +1,12 @@
 """Data of the claims: the results of a quality, and numbers taken from them."""
 
 from collections.abc import Callable, Iterable, Sequence
-from math import hypot, log
 from pathlib import Path
 
 import numpy as np
 
 from workflow.claims.verdict import Estimate, with_systematic
-from workflow.lib.fit import PowerLaw, fit_power
+from workflow.lib.fit import PowerLaw, fit_power, local_exponents
 from workflow.lib.load import Index, Result, load
 from workflow.pipeline.plan import Run, data_path, load_plan
 
@@ -105,9 +104,9 @@ def combination(
 
 def log_slope(first: Estimate, last: Estimate, factor: float) -> Estimate:
     """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
-    span = log(factor)
-    error = hypot(first.error / first.value, last.error / last.value) / span
-    return Estimate("", log(last.value / first.value) / span, error, first.dof)
+    values, errors = (first.value, last.value), (first.error, last.error)
+    _, slope, error = local_exponents((1, factor), values, errors)
+    return Estimate("", float(slope[0]), float(error[0]), first.dof)
 
 
 def power(

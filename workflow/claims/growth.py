@@ -67,7 +67,7 @@ def exponent(runs: Sequence[Result], name: str) -> Estimate:
     )
 
 
-def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
+def smaller_and_larger(by_size: Sequence[T]) -> list[Sequence[T]]:
     """The smaller and the larger sizes, with the middle one in both. A power law has the same exponent in
     both halves."""
     middle = len(by_size) // 2
@@ -77,7 +77,7 @@ def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
 def cube_root(data: Data) -> list[Estimate]:
     """Exponents of kappa over the smaller and over the larger half of fig. 8's sizes at gamma = N, which
     agree for a power law."""
-    parts = halves(_with_bulk(sizes(data, "N")))
+    parts = smaller_and_larger(_with_bulk(sizes(data, "N")))
     if not parts:
         raise MissingError("fewer than two stationary sizes")
     return [exponent(part, "d ln κ/d ln N, γ = N") for part in parts]

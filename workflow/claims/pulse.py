@@ -12,6 +12,7 @@ from workflow.claims.data import Data, MissingError, combination, estimate, log_
 from workflow.claims.growth import of_largest
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Result
+from workflow.physics.pulse import resolved
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
 PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
@@ -33,7 +34,7 @@ def _odd_parts(result: Result) -> list[Estimate]:
     height, position, odd = result["peak"].mean, result["peak_position"].mean, result["odd_part"]
     distance, times = odd.axes["distance"], odd.axes["time"]
     numbers = []
-    for k in np.flatnonzero(np.isfinite(position)):
+    for k in resolved(position):
         nearest = int(np.abs(distance - position[k]).argmin())
         label = f"odd part of the peak/0.1, t = {times[k]:g}"
         numbers.append(estimate(result, "odd_part", (k, nearest), label) / height[k])
@@ -42,11 +43,11 @@ def _odd_parts(result: Result) -> list[Estimate]:
 
 def _slowing(result: Result) -> Estimate:
     speed = result["peak_speed"]
-    resolved = np.flatnonzero(speed.mean > 0)
-    if len(resolved) < 2:
+    moving = np.flatnonzero(speed.mean > 0)
+    if len(moving) < 2:
         raise MissingError("too few times with a moving peak")
-    first, last = (estimate(result, "peak_speed", k) for k in resolved[[0, -1]])
-    time = speed.axes["middle"][resolved]
+    first, last = (estimate(result, "peak_speed", k) for k in moving[[0, -1]])
+    time = speed.axes["middle"][moving]
     return log_slope(first, last, time[-1] / time[0])
 
 
@@ -65,8 +66,8 @@ def ballistic_later(data: Data) -> list[Estimate]:
 def _way(result: Result) -> Estimate:
     """Exponent of the position between the first and the last time with a moving peak. The exponents
     without the first or without the last of them bound the systematic error."""
-    resolved = np.flatnonzero(np.isfinite(result["peak_position"].mean))
-    if len(resolved) < 3:
+    known = resolved(result["peak_position"].mean)
+    if len(known) < 3:
         raise MissingError("too few times with a moving peak")
     times = result["peak_position"].axes["time"]
 
@@ -74,7 +75,7 @@ def _way(result: Result) -> Estimate:
         early, late = (estimate(result, "peak_position", k) for k in (first, last))
         return log_slope(early, late, times[last] / times[first])
 
-    slope, *others = (between(*resolved[list(ends)]) for ends in ((0, -1), (1, -1), (0, -2)))
+    slope, *others = (between(*known[list(ends)]) for ends in ((0, -1), (1, -1), (0, -2)))
     label = f"d ln x_p/d ln t, N = {result.parameters['cells']}"
     return with_systematic(replace(slope, label=label), [other.value for other in others])
 

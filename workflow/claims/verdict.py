@@ -99,7 +99,7 @@ class Verdict:
         return next(outcome for outcome in order if outcome in outcomes)
 
     @property
-    def shown(self) -> Estimate:
+    def decisive(self) -> Estimate:
         """The number farthest outside the band; without one, the number whose interval reaches farthest
         across an edge or is closest to it. Distances are in the unit of the band."""
 

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Parts, plots
+from workflow.lib.fit import local_slopes
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 
@@ -51,10 +52,8 @@ def slopes(table: pd.DataFrame) -> pd.DataFrame:
     """dn/d ln t between times that are APART steps from each other, in the row of the earlier one. The
     errors assume independent numbers; they are upper bounds, as n(t) is positively correlated in time."""
     few = table.iloc[::-APART][::-1]
-    step = np.diff(np.log(few.time))
-    local = pd.DataFrame({"slope": np.diff(few.number) / step}, few.index[:-1])
-    local["slope_error"] = np.hypot(few.number_error.to_numpy()[1:], few.number_error.to_numpy()[:-1]) / step
-    local["slope_time"] = np.sqrt(few.time.to_numpy()[1:] * few.time.to_numpy()[:-1])
+    middle, slope, error = local_slopes(np.log(few.time), few.number, few.number_error)
+    local = pd.DataFrame({"slope": slope, "slope_error": error, "slope_time": np.exp(middle)}, few.index)
     return local.reindex(table.index)
 
 

@@ -141,7 +141,7 @@ def draw(results: Sequence[Result]) -> Parts:
         strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{power}\,\Psi$, $\sigma = {sigma:g}$")
     above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
     ends = [table.tau[~table.unsure].max() for table in tables]
-    for axes, end in zip((above, *strips), (max(ends), *ends), strict=True):
+    for axes, end in zip((above, *strips), (np.fmax.reduce(ends), *ends), strict=True):
         axes.axvspan(cut(results[0]), end, **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")

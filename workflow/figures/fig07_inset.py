@@ -62,7 +62,8 @@ def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
 def extreme(part: pd.DataFrame, row: int) -> str:
     """The smallest (row 0) or the largest (row -1) exponent for σ ≠ 0; at σ = 0 momenta are only
     exchanged."""
-    return format_with_error(*part[part.sigma != 0].sort_values("alpha")[["alpha", "alpha_error"]].iloc[row])
+    known = part[(part.sigma != 0) & part.alpha.notna()].sort_values("alpha")
+    return format_with_error(*known[["alpha", "alpha_error"]].iloc[row]) if len(known) else "unknown"
 
 
 def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:

@@ -11,12 +11,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from numpy.typing import ArrayLike
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error
+from workflow.lib.fit import format_with_error, local_exponents
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 
@@ -29,14 +28,6 @@ GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's
 LOOKS = {str(gamma): look for gamma, look in style.BY_GAMMA.items()}
 
 
-def local_exponents(size: ArrayLike, value: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, ...]:
-    """Geometric means of neighbouring sizes, d ln value / d ln size between them, and its errors."""
-    size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
-    step, relative = np.diff(np.log(size)), error / value
-    slope = np.diff(np.log(value)) / step
-    return np.sqrt(size[1:] * size[:-1]), slope, np.hypot(relative[1:], relative[:-1]) / step
-
-
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
     """kappa in mean field and its local exponents, one row per size, sorted by N."""
     rows = []
@@ -45,9 +36,7 @@ def mean_field(results: Sequence[Result]) -> pd.DataFrame:
         rows.append(row | {"mean_field_kappa": float(result["kappa"].mean)})
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     middle, slope, _ = local_exponents(table.cells, table.mean_field_kappa, 0 * table.cells)
-    return table.assign(
-        middle=np.append(middle, np.nan), mean_field_exponent_to_next=np.append(slope, np.nan)
-    )
+    return table.assign(middle=middle, mean_field_exponent_to_next=slope)
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -62,8 +51,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
     for _, part in table[table.usable].groupby("gamma", sort=False):
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
-        for column, values in zip(columns, local, strict=True):
-            table.loc[part.index[:-1], column] = values
+        table.loc[part.index, columns] = np.transpose(local)
     return table
 
 

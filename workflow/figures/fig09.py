@@ -20,7 +20,7 @@ from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.closed import quasi_stationary
-from workflow.physics.pulse import in_order, label, look, look_of, start
+from workflow.physics.pulse import in_order, label, look, look_of, resolved, start
 from workflow.physics.sound import Chain
 
 UNITS = {"distance": "1"}
@@ -64,8 +64,9 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
     """Plots position and speed of the peak, and the line of constant speed through its first position."""
     where, rate = result["peak_position"], result["peak_speed"]
     time = where.axes["time"]
+    first = next(iter(resolved(where.mean)), 0)
     position.errorbar(time, where.mean, where.error, label=label(result), **look_of(result))
-    position.plot(time, where.mean[0] * time / time[0], **style.GUIDE | {"color": look(result)[1]})
+    position.plot(time, where.mean[first] * time / time[first], **style.GUIDE | {"color": look(result)[1]})
     speed.errorbar(rate.axes["middle"], rate.mean, rate.error, **look_of(result))
 
 

@@ -16,7 +16,7 @@ from workflow.lib.figure import Parts
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
-from workflow.physics.pulse import in_order, label, look_of, start
+from workflow.physics.pulse import in_order, label, look_of, resolved, start
 
 UNITS = dict.fromkeys(("exponent_from_here", "octave_exponent"), "1")
 UNITS |= {"speed_to_next": "1/time", "octave_middle": "time"}
@@ -49,12 +49,21 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def by_octave(result: Result) -> pd.DataFrame:
     """Local exponents, with the last times and the geometric middles of the octaves over which they are
-    fitted."""
-    local, times = result["local_damping_exponent"], result["peak"].axes["time"]
-    until = local.axes["until"]
-    middle = np.sqrt(until * np.append(times[0], until[:-1]))
-    columns = {"octave_exponent": local.mean, "octave_exponent_error": local.error}
-    return pd.DataFrame({"until": until, "octave_middle": middle, **columns})
+    fitted: those with a peak. The program gives no exponent where a height is NaN. For the last octave it is
+    that of the fit from its first height on, which has the heights of this octave only."""
+    local, later, peak = (
+        result[name] for name in ("local_damping_exponent", "damping_exponent_from", "peak")
+    )
+    times, until, rows = peak.axes["time"], local.axes["until"], []
+    known = times[resolved(peak.mean)]
+    for k, first in enumerate([times[0], *until[:-1]]):
+        octave = known[(known >= first) & (known <= until[k])]
+        fit, index = local, k
+        if np.isnan(local.mean[k]) and len(octave) > 1 and octave[-1] == known[-1]:
+            fit, index = later, int(np.searchsorted(later.axes["from"], octave[0]))
+        ends = octave[[0, -1]] if len(octave) > 1 else np.array([np.nan, until[k]])
+        rows.append((ends[1], np.sqrt(ends.prod()), fit.mean[index], fit.error[index]))
+    return pd.DataFrame(rows, columns=["until", "octave_middle", "octave_exponent", "octave_exponent_error"])
 
 
 def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame) -> None:
@@ -76,15 +85,15 @@ def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame)
             )
         style.guide_at(below, -slope, exponent)
     precise = table[table.octave_exponent_error < SPAN].octave_exponent
-    shown = [*(-slope for slope in SLOPES[gamma]), *precise]
-    below.set_ylim(min(shown) - SPAN, max(shown) + SPAN)
+    values = [*(-slope for slope in SLOPES[gamma]), *precise]
+    below.set_ylim(min(values) - SPAN, max(values) + SPAN)
     low, high = above.get_xlim()
     above.set_xlim(low, 1.35 * high)  # room for the names of the guides
 
 
 def exponents(result: Result) -> str:
     """Verb phrase on the exponents of the first and the last octave with a moving peak."""
-    found = by_octave(result).dropna()
+    found = by_octave(result).dropna(subset="octave_exponent")
     texts = [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
     if len(texts) > 1:
         return f"goes from {texts[0]} to {texts[-1]}"

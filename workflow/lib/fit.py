@@ -1,4 +1,5 @@
-"""Weighted least-squares fits of independent points."""
+"""Weighted least-squares fits of independent points, and slopes between them. Points whose value is NaN are
+skipped."""
 
 from dataclasses import dataclass
 
@@ -49,7 +50,7 @@ def format_with_error(value: float, error: float, systematic: float = 0) -> str:
         "∞" if np.isinf(one) else f"{one:.{digits}f}" if error >= 1 else f"{round(one * 10**digits)}"
         for one in errors
     )
-    return "".join([f"{value:.{digits}f}", *(f"({shown})" for shown in brackets)]).replace("-", "−")
+    return "".join([f"{value:.{digits}f}", *(f"({number})" for number in brackets)]).replace("-", "−")
 
 
 def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
@@ -61,7 +62,7 @@ def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
 
 def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
     """Power law by a line through ln y against ln x, weighted with the standard errors of the points."""
-    x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
+    x, y, error = _known(x, y, error)
     relative = error / y
     design = np.stack([np.ones_like(x), np.log(x)], axis=1) / relative[:, None]
     covariance = np.linalg.inv(design.T @ design)
@@ -70,3 +71,30 @@ def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
     return PowerLaw(
         float(solution[1]), float(np.sqrt(covariance[1, 1])), float(residual @ residual), len(x) - 2
     )
+
+
+def local_slopes(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Middle, slope and its error from every point to the next, in the order of the points; NaN for those
+    without a value and for the last."""
+    slopes = np.full((3, np.size(y)), np.nan)
+    from_here = np.flatnonzero(np.isfinite(np.asarray(y, dtype=float)))[:-1]
+    x, y, error = _known(x, y, error)
+    step = np.diff(x)
+    slopes[:, from_here] = (x[1:] + x[:-1]) / 2, np.diff(y) / step, np.hypot(error[1:], error[:-1]) / step
+    return slopes[0], slopes[1], slopes[2]
+
+
+def local_exponents(
+    x: ArrayLike, y: ArrayLike, error: ArrayLike
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Local slopes d ln y/d ln x, with geometric middles."""
+    y = np.asarray(y, dtype=float)
+    middle, exponent, exponent_error = local_slopes(np.log(x), np.log(y), np.asarray(error) / y)
+    return np.exp(middle), exponent, exponent_error
+
+
+def _known(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The points that have a value. A point without an error stays: it makes the error of a fit unknown."""
+    x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
+    known = np.isfinite(y)
+    return x[known], y[known], error[known]

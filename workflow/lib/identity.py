@@ -13,7 +13,7 @@ DIGITS = 12  # 48 bits: two of a million names are equal with a probability of 0
 IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression of an identity
 FORMER = "build/records"  # folder of the records of former figures, of which there may be copies
 SHARED = ("workflow/lib", "workflow/physics", "uv.lock")  # on which all figures depend
-STATEMENT = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
+IDENTITY_LINE = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
 
 
 def identity(*parts: object) -> str:
@@ -55,14 +55,14 @@ def siblings(path: Path | str) -> list[Path]:
     return sorted(Path(path).parent.glob(pattern), key=os.path.getmtime, reverse=True)
 
 
-def statement(panel: str, quality: str, name: str) -> str:
+def identity_line(panel: str, quality: str, name: str) -> str:
     """Identification line in each file of a panel."""
     return f"panel {panel}, quality {quality}, identity {name}"
 
 
-def stated(content: bytes) -> tuple[str, str, str] | None:
+def read_identity_line(content: bytes) -> tuple[str, str, str] | None:
     """Panel, quality and identity that a file of a panel states; None for other files."""
-    found = STATEMENT.search(content)
+    found = IDENTITY_LINE.search(content)
     return (found[1].decode(), found[2].decode(), found[3].decode()) if found else None
 
 

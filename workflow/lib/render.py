@@ -50,7 +50,7 @@ def render(job: Job) -> None:
         raise EditedError(f"{', '.join(sources)}: one of these was edited meanwhile: repeat the command")
     data = [*map(Path, job.data)]
     results = load_all(data)
-    sys.addaudithook(_record)
+    sys.addaudithook(_note_opened)
     h5py.h5f.open = _open_hdf5
     script = import_module(f"workflow.figures.{job.script}")
     style.apply()
@@ -98,7 +98,7 @@ def require_declared(panel: str, script: Path, allowed: Iterable[Path]) -> None:
             )
 
 
-def _record(event: str, arguments: tuple[Any, ...]) -> None:
+def _note_opened(event: str, arguments: tuple[Any, ...]) -> None:
     if event == "open" and isinstance(arguments[0], str) and not arguments[2] & (os.O_WRONLY | os.O_CREAT):
         opened.add(arguments[0])
 

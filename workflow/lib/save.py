@@ -21,7 +21,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from workflow.lib.files import write_atomically
-from workflow.lib.identity import FORMER, ROOT, sha256, siblings, statement
+from workflow.lib.identity import FORMER, ROOT, identity_line, sha256, siblings
 
 CREATOR = "lorentz-gas"
 FORMATS = ("pdf", "png", "svg")
@@ -46,7 +46,7 @@ class Parents:
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
     """Writes stem.pdf, .png, .svg, .csv and the record, all or none. table: text from columns.as_csv()."""
     panel, quality = stem.name, stem.parent.name
-    line = statement(panel, quality, parents.identity)
+    line = identity_line(panel, quality, parents.identity)
     pictures: dict[str, dict[str, Any]] = {
         "pdf": {
             "Title": text.title,

@@ -17,11 +17,11 @@ def quasi_stationary(particles: float, start: float, length: float, time: ArrayL
     """Temperature T and logarithm Λ of a chain from scatterers at rest, at the given times: T solves eq.
     14, in which Λ [eq. 13] depends on T. particles: per cell; start: temperature of the particles at the
     start; length: of a cell."""
-    states = []
+    solutions = []
     for moment in np.atleast_1d(time):
         temperature = start
         for _ in range(ITERATIONS):
             slow = logarithm_at(moment, temperature, length)
             temperature = start * particles * slow / (particles + slow)
-        states.append((temperature, slow))
-    return np.array(states).T
+        solutions.append((temperature, slow))
+    return np.array(solutions).T

@@ -106,13 +106,13 @@ def shown(judgement: Judgement) -> dict[str, Any]:
     largest number."""
     verdict = judgement.verdict
     numbers = sorted(verdict.numbers, key=lambda number: number.value)
-    listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.shown]
+    listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.decisive]
     return dict(judgement.row) | {
         "outcome": verdict.outcome,
         "sign": SIGNS[verdict.outcome],
         "band": typeset.acceptance(verdict.band),
-        "value": typeset.value(verdict.shown) if numbers else "not measured",
-        "label": verdict.shown.label if numbers else "",
+        "value": typeset.value(verdict.decisive) if numbers else "not measured",
+        "label": verdict.decisive.label if numbers else "",
         "list": [
             (number.label, typeset.value(number), verdict.outcome_of(number).value) for number in listed
         ],

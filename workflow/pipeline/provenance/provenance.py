@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.identity import FORMER, result_identity, sha256, stated
+from workflow.lib.identity import FORMER, read_identity_line, result_identity, sha256
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import FIGURES, QUALITIES, Selection, load_plan, runs_of, stem_of
@@ -64,12 +64,12 @@ def explain_result(path: Path) -> int:
 
 def explain_figure(path: Path) -> int:
     content = path.read_bytes()
-    if not (statement := stated(content)):
+    if not (line := read_identity_line(content)):
         print(
             f"{path} has no panel metadata: it is no file of a panel, or another program rewrote it; make status checks the report"
         )
         return 1
-    panel, quality, identity = statement
+    panel, quality, identity = line
     plan, name = load_plan(quality), f"{panel}.{identity}.json"
     known = next(
         (path for folder in (FIGURES, FORMER) if (path := Path(folder, quality, name)).exists()), Path(name)

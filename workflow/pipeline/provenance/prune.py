@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from workflow.lib.identity import IDENTITY, named_identity, stated
+from workflow.lib.identity import IDENTITY, named_identity, read_identity_line
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import FIGURES, REPORT, Panel, runs_of
 from workflow.pipeline.provenance.audit import tracked
@@ -22,7 +22,10 @@ def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
     """Files of a quality and effort that its plan does not name. Raises OSError."""
     for file in Path(FIGURES, quality).glob("*.*"):
         panel = file.name.partition(".")[0]
-        given_here = named_identity(file) or (stated(file.read_bytes()) or ())[:2] == (panel, quality)
+        given_here = named_identity(file) or (read_identity_line(file.read_bytes()) or ())[:2] == (
+            panel,
+            quality,
+        )
         if panel not in (*plan, REPORT) and given_here:
             yield file
     planned = {path.removesuffix(".h5") for path in runs_of(plan, plan, quality)}

@@ -1,0 +1,98 @@
+"""Numbers of the panels of the flux against the kinetic equation (plotted.py)."""
+
+import numpy as np
+
+from tests.python.plotted import CHAIN, Law, assert_line, assert_points, both, draw, lines, result
+from workflow.physics.fluxes import MEAN_FIELD
+
+
+def test_fig03() -> None:
+    """Halves of a Gaussian, one of them with a bump: the ratio has the rate and the second moment of the
+    flux itself."""
+    p = np.arange(-40, 40, 0.5) + 0.25
+    bump = 1 + 0.2 * np.exp(-((p - 15) ** 2) / 20)
+    flux = np.stack([9 * np.exp(-(p**2) / 200) * np.where(p < 0, 2, 1) * part for part in (1, bump)])
+    solution = result(
+        "paper", CHAIN | {"gamma": 1.0}, "boltzmann", flux_density=(flux, {"x": [0, 1], "momentum": p}),
+        kurtosis=([[3, 3.1], [3.2, 3.3]], {"x": [0, 1], "half": [-1, 1]}), jump=([0.25, 0.75], {"x": [0, 1]}),
+    )  # fmt: skip
+    (above, below, *_), table, caption = draw("fig03", [solution])
+    for index, sign in ((0, -1), (0, 1), (1, -1), (1, 1)):
+        half = np.sign(p) == sign
+        rate, square = 0.5 * flux[index][half].sum(), np.average(p[half] ** 2, weights=flux[index][half])
+        gaussian = rate * np.sqrt(2 / np.pi / square) * np.exp(-(p[half] ** 2) / 2 / square)
+        assert_line(above, p[half], flux[index][half])
+        often = flux[index][half] > 0.01 * flux.max()
+        assert any(
+            len(x) == half.sum()
+            and np.allclose(y[often], 100 * (flux[index][half] / gaussian - 1)[often], atol=1e-9)
+            for x, y in lines(below)
+        )
+    at_end = table[table.x == "x = 1"]
+    np.testing.assert_allclose(at_end["kurtosis"], np.where(p > 0, 3.3, 3.2))
+    np.testing.assert_allclose(at_end.jump, 0.75)
+    assert "Here it is 0.25 at x = 0 and 0.75 at x = 1" in caption
+
+
+def test_fig03_inset() -> None:
+    """F_N - F is 0.2/N times a shape with the maximum 1, in units of max F = 10; mean field 0.3/N."""
+    p = np.array([-3.0, -1, 1, 3])
+    shape, exact = np.array([0.25, 0.5, 1, 0.5]), np.array([6.0, 10, 10, 6])
+    where = {"momentum": p}
+
+    def flux(height: float, cells: int) -> Law:
+        bonds = np.arange(cells + 1.0)
+        return np.tile(exact + 10 * height * shape, (cells + 1, 1)), {"bond": bonds} | where
+
+    limit = np.tile(exact, (2, 1)), {"x": [0, 1]} | where
+    runs = [result("continuum", CHAIN | {"cells": "continuum"}, "boltzmann", flux=limit)]
+    for cells in (2, 4):
+        for kind, program, factor in (("mean-field", "boltzmann", 0.3), ("simulation", "momentum_flux", 0.2)):
+            chain = CHAIN | {"cells": cells}
+            runs.append(result(f"{kind}_cells={cells}", chain, program, flux=flux(factor / cells, cells)))
+    axes, table, _ = draw("fig03_inset", runs)
+    left, right, decay = axes[:3]
+    outgoing = {cells: np.where(p < 0, (error := run["flux"].error)[0], error[-1]) / 10
+                for cells, run in ((2, runs[2]), (4, runs[4]))}  # fmt: skip
+    for panel, half in ((left, p < 0), (right, p > 0)):
+        assert_points(panel, *((p[half], 200 * shape[half] / n, 1e3 * outgoing[n][half]) for n in (2, 4)))
+        for n in (2, 4):
+            assert_line(panel, p[half], 300 * shape[half] / n)
+    scale = 1 / (shape @ shape)
+    amplitude = [scale * np.sqrt(np.sum((shape * outgoing[n]) ** 2)) for n in (2, 4)]
+    assert_points(decay, ([2, 4], [0.1, 0.05], amplitude))
+    assert_line(decay, [2, 4], [0.15, 0.075])
+    assert_line(decay, [2, 4], [0.3 / 2 * (1.5 - 0.25), 0.3 / 4 * (1.5 - 0.25)])  # extrapolated to p = 0
+    np.testing.assert_allclose(table.absolute_as_printed, table.deviation * 10 / 400)
+    assert {*table[table.kind == MEAN_FIELD].error} == {0}
+
+
+def test_fig04() -> None:
+    p = np.array([-3.0, -1, 1, 3])
+    chain = CHAIN | {"momentum-max": 4}
+    flux = 10 + np.arange(36.0).reshape(9, 4)
+    jump = 1 + np.arange(9.0)
+    runs = [
+        result(run, chain | rates, "momentum_flux", flux=(flux + shift, {"bond": np.arange(9), "momentum": p}),
+               jump=(jump + shift, {"bond": np.arange(9)}))
+        for run, shift, rates in (("deterministic", 0, {}), ("equal", 2, {"nu-left": 200.0, "nu-right": 200.0}))
+    ]  # fmt: skip
+    runs += [
+        result(run, chain | rates, "boltzmann", flux=(flux - 1, {"x": np.arange(9) / 8, "momentum": p}), jump=(jump - shift, {"x": np.arange(9) / 8}))
+        for run, shift, rates in (("mean-field", 0.5, {}), ("mean-field-equal", 0.7, {"nu-left": 200.0, "nu-right": 200.0}))
+    ]  # fmt: skip
+    axes, table, _ = draw("fig04", runs)
+    main, near, residual, jumps = axes[:4]
+    halves = (p < 0, p > 0)
+    error = runs[0]["flux"].error
+    expected = [(p[half], flux[bond][half], error[bond][half]) for bond in (1, -1) for half in halves]
+    assert_points(main, *expected)
+    assert_points(near, *expected)
+    unit = (flux[-1] - 1).max() / 100
+    assert_points(residual, *((x, 1 / unit, bars / unit) for x, _, bars in expected))
+    heights = {(row, bond): 0.17 * bond - row for row in (0, 1) for bond in (1, -1)}
+    pairs = {(row, bond): [each[bond] for each in both(runs[row]["jump"])] for row, bond in heights}
+    assert_points(jumps, *((pairs[key][0], height, pairs[key][1]) for key, height in heights.items()))
+    for (row, bond), height in heights.items():
+        assert_line(jumps, [jump[bond] - (0.5, 0.7)[row]], [height])
+    np.testing.assert_allclose(table.kinetic_jump, table.jump - np.where(table.nu_left == 200, 2.7, 0.5))

@@ -1,0 +1,145 @@
+"""Numbers of the panels of open chains, and of those with and without conserved momentum (plotted.py)."""
+
+import numpy as np
+
+from tests.python.plotted import (
+    CHAIN,
+    RING,
+    assert_line,
+    assert_points,
+    both,
+    draw,
+    errors_of,
+    over,
+    result,
+)
+
+
+def test_fig01() -> None:
+    times, bins, speeds = [2.0, 5, 9], [-3.0, -1, 1, 3], [0.1, 1.0, 10.0]
+    front = 1.3 / (8 * np.e * np.array(times))
+    filling = result(
+        "unit-chain", CHAIN | {"momentum-max": 4.0, "momentum-bins": 4},
+        weighted_momentum_density=(np.outer(times, bins) ** 2, {"time": times, "p": bins}),
+        weighted_speed_density=(np.outer(times, speeds), {"time": times, "speed": speeds}),
+        plateau=([7.0, 8, 9], {"time": times}), front=(front, {"time": times}), front_exponent=-0.9,
+    )  # fmt: skip
+    (above, middle, below), table, caption = draw("fig01", [filling])
+    for k, time in enumerate(times):
+        assert_line(above, bins, (time * np.array(bins)) ** 2)
+        assert_line(middle, speeds, time * np.array(speeds))
+        at = table[(table.time == time) & (table.bins == "speed")]
+        np.testing.assert_allclose(at.weighted_density, time * np.array(speeds))
+        np.testing.assert_allclose(at.error, filling["weighted_speed_density"].error[k])
+        np.testing.assert_allclose(at.plateau, 7 + k)
+    assert_points(below, (times, 1.3, filling["front"].error * 8 * np.e * times))
+    assert_points(middle, (front, [7 / np.e, 8 / np.e, 9 / np.e], filling["front"].error))
+    assert "from 7.000(80) to 9.000(96), and p_0 ∼ t^a with a = −0.9000(90)" in caption
+
+
+def test_fig01_inset() -> None:
+    time = np.geomspace(1, 64, 7)
+    filling = result(
+        "unit-chain", CHAIN, total_number=(3 + 8 * np.log(time), {"time": time}), log_slope=8.0, log_curvature=0.0,
+        plateau=([7.5, 7.6], {"time": [4.0, 64.0]}),
+    )  # fmt: skip
+    (above, below), table, _ = draw("fig01_inset", [filling])
+    number, error = both(filling["total_number"])
+    assert_points(above, (time, number, error))
+    np.testing.assert_allclose(table.number_fitted[time > 3.9], (3 + 8 * np.log(time))[time > 3.9])
+    assert table.number_fitted[time < 3.9].isna().all()
+    slopes = np.hypot(error[[3, 6]], error[[0, 3]]) / np.log(8)
+    assert_points(below, ([8**0.5, 8**1.5], 8, slopes), ([4, 64], *both(filling["plateau"])))
+
+
+def test_fig02_upper() -> None:
+    cells = np.arange(8)
+    x = (cells + 0.5) / 8
+    runs = [
+        result(run, CHAIN | {"gamma": gamma}, temperature_scatterer=(90 + s * cells, {"cell": cells}),
+               temperature_particle=(91 + s * cells, {"cell": cells}), temperature_difference=(-1 - 0.1 * s * cells, {"cell": cells}))
+        for run, gamma, s in (("deterministic", "N", 2.0), ("rare", 1, 1.0))
+    ]  # fmt: skip
+    (above, below), table, _ = draw("fig02_upper", runs)
+    assert_points(above, *((x, *both(run["temperature_scatterer"])) for run in runs))
+    differences = [run["temperature_difference"] for run in runs]
+    assert_points(below, *((x, -difference.mean, difference.error) for difference in differences))
+    for run, gamma in zip(runs, ("N", "1"), strict=True):
+        assert_line(above, x, run["temperature_particle"].mean)
+        part = table[table.gamma == gamma]
+        np.testing.assert_allclose(part.particle, run["temperature_particle"].mean)
+        np.testing.assert_allclose(part.particle_error, run["temperature_particle"].error)
+
+
+def test_fig02_lower() -> None:
+    """The line goes through the middle half, 6 of 12 cells, as that of the programs does."""
+    cells = np.arange(12)
+    x, density = (cells + 0.5) / 12, 5 + np.array([3, 1, 0.4, 0.2, 0, 0.1, 0.3, 0, 0.1, 0.5, 1, 2])
+    laws = {"density": (density, {"cell": cells}), "density_excess": ([0.2, 0.3], {"end": [0, 1]})}
+    chain = result("rare", CHAIN | {"gamma": 1}, **laws)
+    (above, below), table, caption = draw("fig02_lower", [chain])
+    bulk = slice(3, 9)
+    line = density[bulk].mean() + np.cov(x[bulk], density[bulk])[0, 1] / np.var(x[bulk], ddof=1) * (x - 0.5)
+    error = chain["density"].error
+    assert_points(above, (x, density, error))
+    assert_line(above, x, line)
+    assert_points(below, (x, density / line, error / line))
+    np.testing.assert_allclose(table.bulk, line)
+    assert "20.00(25) % at γ = 1" in caption
+
+
+def test_fig08() -> None:
+    """κ = 2 N^0.4 and 3 N in chains, and 7 N^0.2 in mean field, which it has from the current and the
+    temperatures of the ends."""
+    sizes = np.array([4, 8, 16, 32])
+    runs = [
+        result(f"{series}_cells={n}", CHAIN | {"cells": int(n), "gamma": gamma}, "conductivity", kappa=kappa(n), energy_current=-1.0 * n,
+               stationary=float(n != 16), drift_p_value=0.5)
+        for series, gamma, kappa in (("every", "N", lambda n: 2 * n**0.4), ("rare", 1, lambda n: 3.0 * n)) for n in sizes
+    ]  # fmt: skip
+    of_size = {int(n): CHAIN | {"cells": int(n)} for n in sizes}
+    runs += [
+        result(f"mean-field_cells={n}", chain, "boltzmann", kappa=7 * n**0.2) for n, chain in of_size.items()
+    ]
+    (above, below, *_), table, caption = draw("fig08", runs)
+    assert_points(above, *((sizes, *over(part, "kappa")) for part in (runs[:4], runs[4:8])))
+    sound, middle = np.array([4, 8, 32]), np.sqrt([32, 256])
+    step, bars = np.log([2, 4]), 0.01 * 2**0.5
+    assert_points(below, (middle, 0.4, bars / step), (middle, 1, bars / step))
+    assert_line(above, sizes, 7 * sizes**0.2)
+    deterministic = table[table.gamma == "N"]
+    np.testing.assert_allclose(deterministic.mean_field_kappa, 7 * sizes**0.2)
+    np.testing.assert_allclose(deterministic.mean_field_exponent_to_next.dropna(), 0.2)
+    np.testing.assert_allclose(deterministic.exponent_to_next.dropna(), 0.4)
+    assert [*sound[:2]] == [*deterministic.cells[deterministic.exponent_to_next.notna()]]
+    assert "are 0.400(20) and 0.400(10) at γ = N" in caption
+
+
+def test_momentum() -> None:
+    """κ/κ(16) is (N/16)^a with another a for every case, and β - 1 is a."""
+    sizes, time = (16, 32, 64), np.array([2.0, 4, 8])
+    reversal = {"rule": "reversal", "reversal-probability": 0.1}
+    cases = {"elastic": (0.3, {}), "passing": (0.2, {"gamma": 0.9}), "reversal": (0.05, reversal)}
+    runs = []
+    ring = {"cells": 100, "sigma": 0.5, "fugacity": 1.0, "temperature": 1.0, "cell-length": 1.0}
+    for name, (a, options) in cases.items():
+        gamma = options.get("gamma", 1)
+        own = {key: value for key, value in options.items() if key != "gamma"}
+        series = {"elastic": "light"}.get(name, name)
+        runs += [result(series, RING | ring | own | {"gamma": "N" if gamma == 1 else gamma * 100}, "heat_current",
+                        heat_variance=(time ** (1 + a), {"time": time}), local_exponent=([1 + a, 1 + a], {"middle": np.sqrt([8, 32])}))]  # fmt: skip
+        runs += [result(f"chain-{name}_cells={n}", CHAIN | {"cell-length": 0.1, "cells": n} | own | {"gamma": "N" if gamma == 1 else gamma * n},
+                        "conductivity", kappa=7 * n**a, stationary=1.0, drift_p_value=0.5) for n in sizes]  # fmt: skip
+    (chains, rings), table, caption = draw("momentum", runs)
+    powers = [cases[name][0] for name in ("elastic", "reversal", "passing")]  # by passing, then by ε
+    bars = [0, *[0.01 * 2**0.5] * 2]
+    growths = [(np.array(sizes) / 16) ** a for a in powers]
+    assert_points(chains, *((sizes, growth, growth * bars) for growth in growths))
+    octaves = np.sqrt([8, 32])  # their middles
+    assert_points(rings, *((octaves, [a, a], errors_of(np.array([1 + a, 1 + a]))) for a in powers))
+    assert (
+        "κ(64)/κ(16) is 1.516(21) for elastic collisions, 1.320(19) with 10 % passing, 1.072(15) with 10 % reversed"
+        in caption
+    )
+    assert "β − 1 ends at 0.200(13) and 0.050(12)" in caption
+    assert len(table) == 9 + 9
