@@ -1,10 +1,9 @@
 /// Persistence mu(sigma): fraction of the scatterings that conserve the direction of the particle, p' p > 0,
 /// over all particles and both directions.
 ///
-/// In equilibrium mu = arccos(sigma)/pi for elastic collisions [eq. 10], from which a finite chain deviates.
-/// For independent particles and scatterers at the temperatures T_p and T_s, mu follows from the ratio of the
-/// temperatures [eq. 11]. The mean energies before scatterings are stored to separate this part of the
-/// deviation from correlations.
+/// In equilibrium mu = arccos(sigma)/pi for elastic collisions [eq. 10]. In a finite chain the conservation of
+/// the total momentum changes it [eq. 11], by an amount that follows from the temperature at which particles
+/// and scatterers meet: their mean energies before scatterings are stored.
 #include <bit>
 #include <cstdint>
 

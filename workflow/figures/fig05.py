@@ -1,42 +1,54 @@
-"""Fig. 5: persistence mu against the mass ratio sigma, with the law arccos(sigma)/pi."""
+"""Fig. 5: persistence mu against the mass ratio sigma, with the law arccos(sigma)/pi, and with what the
+conservation of the total momentum makes of it [eq. 11]."""
 
 from collections.abc import Sequence
-from itertools import cycle
 
 import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, parameters
+from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
-from workflow.physics.closed import persistence_law
+from workflow.physics.closed import persistence_at_momentum, persistence_law
+from workflow.physics.run_parameters import mass
 
 TITLE = "Persistence probability against the mass ratio"
-UNITS = dict.fromkeys(("law", "deviation", "law_at_local_energies"), "1")
+UNITS = dict.fromkeys(("law", "deviation", "at_momentum"), "1")
 
-MARKS = [
-    style.points(*look) for look in (("o", style.BLUE), ("s", style.VERMILLION, "white"), ("^", style.GREEN))
-]
+LOOKS = {
+    "paper": style.points("o", style.BLUE, label="$n = 20$, as in the paper"),
+    "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = 20$, $\Pi = 0$"),
+    "dense": style.points("^", style.GREEN, label="$n = 320$"),
+}
 
 
-def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
-    """Persistence for independent Gaussian momenta with the measured mean energies of particles and
-    scatterers before collisions."""
-    c = np.sqrt((1 - table.sigma) * (1 + table.sigma))
-    speeds = np.sqrt(table.particle_energy / table.scatterer_energy)
-    return 0.5 - np.arctan2(table.sigma * speeds, c) / np.pi
+def at_momentum(result: Result) -> float:
+    """mu by eq. 11 for the measured temperature: at large N and n, collisions have a common T, which is twice
+    the mean energy of particles and of scatterers before them. Their energy leaves the rest of E to slow
+    particles."""
+    sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])
+    if abs(sigma) == 1:
+        return float(persistence_law(np.float64(sigma)))
+    energy = cells * result.parameters["particles_per_cell"] * float(result.parameters["temperature"])  # 2 E
+    temperature = float(result["particle_energy"].mean + result["scatterer_energy"].mean)
+    total_mass = cells * mass(result) + energy / temperature - cells
+    # Scatterers start at rest, so that the mean square of the total momentum is that of the particles.
+    momentum = 0 if result.parameters["zero_total_momentum"] else energy / temperature
+    return float(persistence_at_momentum(sigma, total_mass, momentum))
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, by number of particles and sigma."""
+    """One row per run, by series and sigma."""
     rows = [
         {
-            "particles_per_cell": int(result.parameters["particles-per-cell"]),
+            "series": result.series,
+            "particles_per_cell": int(result.parameters["particles_per_cell"]),
             "sigma": float(result.parameters["sigma"]),
             "mu": float(result["mu"].mean),
             "mu_error": float(result["mu"].error),
+            "at_momentum": at_momentum(result),
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
             "replicas": int(result["mu"].replicas),
@@ -44,41 +56,40 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         }
         for result in results
     ]
-    table = pd.DataFrame(rows).sort_values(["particles_per_cell", "sigma"], ignore_index=True)
-    table.insert(4, "law", persistence_law(table.sigma))
-    table.insert(5, "deviation", table.mu - table.law)
-    table["law_at_local_energies"] = law_at_local_energies(table)
+    table = pd.DataFrame(rows).sort_values(["series", "sigma"], ignore_index=True)
+    table.insert(5, "law", persistence_law(table.sigma))
+    table.insert(6, "deviation", table.mu - table.law)
     return table
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    largest = []
-    for particles, series in table.groupby("particles_per_cell"):
-        far = series.loc[series.deviation.abs().idxmax()]
-        largest.append(f"{format_with_error(far.deviation, far.mu_error)} at n = {particles}")
+    most = {}
+    for name, part in table[table.sigma.abs() <= 0.9].groupby("series"):
+        far = part.loc[part.deviation.abs().idxmax()]
+        most[name] = format_with_error(far.deviation, far.mu_error)
     return f"""
         The paper plots the probability μ that a particle keeps its direction in a scattering and finds arccos(σ)/π ({parameters(results, "cells", "gamma", "temperature")}).
-        Here the largest differences are {listed(largest)} particles per cell. (a) The line shows the law. (b) Dashes show the law for the energies
-        measured before collisions. {ERRORS}"""
+        (b) Here μ differs by {most.get("paper", "(unknown)")} at most for |σ| ≤ 0.9; with total momentum Π = 0 by {most.get("zero-momentum", "(unknown)")}; with 320 particles per
+        cell by {most.get("dense", "(unknown)")}. Dashes show the law at the conserved Π. {ERRORS}"""
 
 
-@plots("paper dense")
+@plots("paper zero-momentum dense")
 def draw(results: Sequence[Result]) -> Parts:
     require_elastic(results, "the law arccos(σ)/π")
     table = tabulate(results)
-    figure, (above, below) = style.stacked(2.2, 1, height=1.4)
+    figure, (above, below) = style.stacked(2.2, 1.4, height=1.5)
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, persistence_law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
-    for (particles, series), mark in zip(table.groupby("particles_per_cell"), cycle(MARKS), strict=False):
-        label = f"$n = {particles}$"
-        above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark)
-        below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark)
-        expected = 1e3 * (series.law_at_local_energies - series.law)
-        dash: style.Look = {"linestyle": "none", "marker": "_", "markersize": 7, "markeredgewidth": 1.2}
-        below.plot(series.sigma, expected, color=mark["color"], zorder=1, **dash)
-        style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
-    above.plot([], [], color="grey", label="law at measured energies", **dash)
+    for name, look in LOOKS.items():
+        part = table[table.series == name]
+        above.errorbar(part.sigma, part.mu, part.mu_error, **look)
+        below.errorbar(part.sigma, 1e3 * part.deviation, 1e3 * part.mu_error, **look)
+        inside = part[part.sigma.abs() < 1]
+        expected = 1e3 * (inside.at_momentum - inside.law)
+        below.plot(inside.sigma, expected, color=look["color"], linestyle=(0, (3, 1.5)), zorder=1)
+    style.cross_out(above, table.sigma, table.mu, table.converged == NOT_REACHED)
+    above.plot([], [], color="grey", linestyle=(0, (3, 1.5)), label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")

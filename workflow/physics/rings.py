@@ -9,12 +9,12 @@ from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
 
-GAS = ["rule", "passing", "epsilon", "zeta", "mass"]  # columns that identify a gas
+GAS = ["rule", "epsilon", "zeta", "mass"]  # columns that identify a gas
 
 
 def chain(result: Result) -> Chain:
     """The gas of a ring."""
-    temperature, length = (result.parameters[name] for name in ("temperature", "cell-length"))
+    temperature, length = (result.parameters[name] for name in ("temperature", "cell_length"))
     return Chain(result.parameters["fugacity"] * length, run_parameters.mass(result), temperature, length)
 
 
@@ -24,11 +24,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        scattering = (
-            result.parameters["rule"],
-            run_parameters.passing(result),
-            run_parameters.epsilon(result),
-        )
+        scattering = (result.parameters["rule"], run_parameters.epsilon(result))
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 
 from workflow.lib.load import Result
 
-REVERSAL = "reversal"  # a collision rule
 SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
 
 
@@ -27,15 +26,8 @@ def mass(result: Result) -> float:
 
 
 def epsilon(result: Result) -> float:
-    """Fraction of the collisions that reverse the momentum of the scatterer."""
-    reversing = result.parameters["rule"] == REVERSAL
-    return float(result.parameters["reversal-probability"]) if reversing else 0.0
-
-
-def passing(result: Result) -> float:
-    """Probability that a particle passes a scatterer, 1 - γ/N."""
-    value = result.parameters["gamma"]
-    return 0.0 if value == "N" else round(1 - float(value) / int(result.parameters["cells"]), 9)
+    """Fraction of the collisions that the rule of the result disturbs; 0 of the elastic one."""
+    return float(result.parameters.get(f"{result.parameters['rule']}_probability", 0))
 
 
 def spacing(result: Result) -> tuple[float, str]:
