@@ -1,6 +1,4 @@
-"""Accuracy against time: errors of four programs with several numbers of replicas, and of the kinetic solver
-at several resolutions, against CPU time; distances from a reference; bias against cost of the relaxation time
-and of the first time of a fit.
+"""Accuracy against CPU time: what 1 % costs, which parameter to raise, and what a target error achieves.
 
 The time is that of each run on the machine that made it, from the file of its cost (docs/format.md), so that
 this panel alone differs between machines.
@@ -14,23 +12,28 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.figure import Parts, plots
+from workflow.lib.caption import ERRORS
+from workflow.lib.figure import Parts
 from workflow.lib.load import FormatError, Result, cpu_seconds
 
 TITLE = "Accuracy against time"
-UNITS = {"cpu_seconds": "second", "error": "1", "points": "1"}
+UNITS = {"cpu_seconds": "second", "cost_of_1_percent": "second", "cost_without_control_variates": "second"}
+UNITS |= dict.fromkeys(("error", "deviation"), "1")
 
-OCTAVE = "local_exponent"  # of the heat in rings; its last octave has the largest error
+OWN = ("relaxation", "window", "reference", "target", "kinetic")  # series; others are those of the panels used
 STARTS = {"warm": ("o", style.BLACK), "cold": ("s", style.BLUE), "empty": ("^", style.VERMILLION)}
-LOOKS = {
-    "mu": ("o", style.BLACK, r"$\mu$"),
-    "alpha": ("s", style.BLUE, r"$\alpha$"),
-    "kappa": ("^", style.VERMILLION, r"$\kappa$"),
-    "amplitude": ("v", style.GREEN, "$A$"),
-    OCTAVE: ("D", style.ORANGE, r"$\beta$, last octave"),
-}  # marker, colour and symbol by quantity
+PROGRAMS = {
+    "conductivity": ("o", style.BLUE),
+    "displacement": ("s", style.BLACK),
+    "energy_pulse": ("v", style.GREEN),
+    "momentum_flux": ("<", style.ORANGE),
+    "particle_count": (">", style.SKY),
+    "persistence": ("^", style.VERMILLION),
+    "steady_profile": ("D", style.ORANGE),
+    "waiting_time": ("P", style.BLACK),
+}
 GAMMAS = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
-PAPER_POINTS = 4200
+PERCENT = 0.01
 
 
 def seconds(result: Result) -> float:
@@ -43,121 +46,115 @@ def seconds(result: Result) -> float:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run and estimate. `replicas` and the uncertainty of the error, relative to it, are those
-    of sampling programs, `points` of the kinetic solver."""
+    """One row per run with the relative error of its target quantity, and for sampling programs the CPU time
+    for an error of 1 %, as an error falls with the square root of the number of replicas."""
     rows = []
     for result in results:
-        provenance = result.provenance
-        row = {"program": provenance["program"], "cpu_seconds": seconds(result)}
-        if row["program"] == "boltzmann":
-            row |= {
-                "quantity": "currents",
-                "gamma": result.parameters["gamma"],
-                "error": provenance["achieved_error"],
-            }
-            rows.append(row | {"points": int(result["momentum_points"].mean)})
-            continue
-        name = str(provenance["target_quantity"])
-        for quantity in (name, OCTAVE):
-            if quantity in result.quantities:
-                estimate, count = result[quantity], result.replicas
-                value, absolute = float(estimate.mean.flat[-1]), float(estimate.error.flat[-1])
-                error = abs(absolute / value)
-                sampled = {"replicas": count, "value": value, "error_error": error / np.sqrt(2 * (count - 1))}
-                rows.append(row | {"quantity": quantity, "error": error} | sampled)
-    return pd.DataFrame(rows)
+        origin, time = result.provenance, seconds(result)
+        row = {"panel": result.path.parent.name, "series": result.series, "program": origin["program"]}
+        row |= {"cells": result.parameters.get("cells"), "gamma": str(result.parameters.get("gamma"))}
+        row |= {name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")}
+        row |= {"target_error": origin["target_error"], "cpu_seconds": time, "error": origin["achieved_error"]}
+        if row["program"] != "boltzmann":
+            plain = origin["error_without_control_variates"]
+            row["cost_of_1_percent"] = time * (row["error"] / PERCENT) ** 2
+            row["cost_without_control_variates"] = time * (plain / PERCENT) ** 2
+            if row["series"] in OWN:
+                row |= result.columns("kappa") | {"usable": result.usable}
+        rows.append(row)
+    table = pd.DataFrame(rows)
+    exact = table[table.series == "reference"].iloc[0]
+    table["deviation"] = table.kappa / exact.kappa - 1
+    table["deviation_error"] = np.hypot(table.kappa_error, exact.kappa_error) / exact.kappa
+    return table
 
 
-def draw_sampled(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots errors. Lines: 1/sqrt(time) through the mean of the logarithms."""
-    for quantity, part in table.groupby("quantity", sort=False):
-        marker, color, symbol = LOOKS[quantity]
+def draw_costs(axes: Axes, table: pd.DataFrame) -> None:
+    """Plots the cost of 1 % against N; of runs of one panel and size, the geometric mean. Open: without control
+    variates."""
+    costs = ["cost_of_1_percent", "cost_without_control_variates"]
+    for (program, gamma), part in table.groupby(["program", table.gamma == "N"]):
+        marker, color = PROGRAMS[program]
+        label = f"{program.replace('_', ' ')}" + ("" if gamma else r", $\gamma = 1$")
+        mean = np.exp(np.log(part.set_index("cells")[costs]).groupby(level=0).mean())
+        line = "-" if len(mean) > 2 else "none"
+        face = color if gamma else "white"
+        look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + gamma}
+        axes.plot(mean.index, mean[costs[0]], linestyle=line, markerfacecolor=face, label=label, **look)
+        if line != "none":
+            axes.plot(mean.index, mean[costs[1]], linestyle=(0, (1, 1)), marker="", color=color)
+    axes.set(xscale="log", yscale="log", xlabel="number of cells $N$", ylabel="CPU seconds for 1 %")
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), fontsize="small")
+
+
+def draw_bias(axes: Axes, table: pd.DataFrame, name: str, symbol: str) -> None:
+    """Plots the distance of kappa from the reference, and its standard error as a line, against the CPU time,
+    which rises with the parameter `name`. Where points exceed the line, more replicas do not help."""
+    for start, (marker, color) in STARTS.items():
+        part = table[table.start == start].sort_values(name)
         axes.errorbar(
-            part.cpu_seconds, part.error, part.error_error, **style.points(marker, color, label=symbol)
+            part.cpu_seconds, part.deviation.abs(), part.deviation_error, **style.points(marker, color, label=start)
         )
-        law = np.exp(np.average(np.log(part.error * np.sqrt(part.cpu_seconds)), weights=part.replicas))
-        axes.plot(part.cpu_seconds, law / np.sqrt(part.cpu_seconds), color=color, linewidth=0.8, zorder=1)
-    axes.set(xlabel="CPU time / s", ylabel="relative error")
-    if table.error.notna().any():  # matplotlib has no logarithmic axis without points
-        axes.set(xscale="log", yscale="log")
-        axes.set_ylim(top=30 * table.error.max())  # space for the legend
-    axes.legend(loc="upper right", ncols=2, handlelength=1.8)
+        axes.plot(part.cpu_seconds, part.deviation_error, color=color, linestyle="dotted", zorder=1)
+        style.cross_out(axes, part.cpu_seconds.to_numpy(), part.deviation.abs().to_numpy(), part.usable != True)  # noqa: E712
+    ends = [f"{value:g}" for value in (table[name].min(), table[name].max())]
+    axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$", ylim=(1e-3, 3))
+    axes.set_xlabel(f"CPU time / s, {symbol} from {ends[0]} to {ends[1]}")
 
 
-def draw_distances(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots the distance of every estimate from that with the most replicas, over the errors of both."""
-    for quantity, part in table.groupby("quantity", sort=False):
-        marker, color, _ = LOOKS[quantity]
-        reference = part.loc[part.replicas.idxmax()]
-        others = part.drop(reference.name)
-        error = np.hypot(others.error * others.value, reference.error * reference.value)
-        axes.errorbar(
-            others.replicas, (others.value - reference.value) / error, **style.points(marker, color)
-        )
-    axes.axhspan(-2, 2, **style.WINDOW)
+def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
+    """Plots the distance of kappa from the reference over the target error."""
+    part = table[table.series == "target"]
+    axes.axhspan(-1, 1, **style.WINDOW)
     axes.axhline(0, **style.GUIDE)
-    axes.set(ylim=(-4, 4), xlabel="replicas", ylabel="distance from reference / error")
-    if table.error.notna().any():
-        axes.set_xscale("log")
-        style.label_within_decades(axes.xaxis)
+    for (target, runs), marker in zip(part.groupby("target_error"), "osD^", strict=False):
+        look = style.points(marker, style.BLUE, "white", label=f"{100 * target:g} %")
+        axes.errorbar(runs.cpu_seconds, runs.deviation / target, runs.error / target, **look)
+    axes.set(xscale="log", xlabel="CPU time / s", ylabel="deviation / target error")
+    axes.legend(loc="upper left", title="target", ncols=3)
+    axes.set_ylim(-2.5, 4)
 
 
 def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
-    resolutions = table.drop_duplicates(["gamma", "points"]).sort_values("points")
-    for (gamma, part), (marker, color, dashes) in zip(resolutions.groupby("gamma"), GAMMAS, strict=False):
-        look: style.Look = {
-            "marker": marker,
-            "color": color,
-            "linestyle": dashes,
-            "label": rf"$\gamma = {gamma:g}$",
-        }
-        axes.plot(part.points, part.error, **look)
-    axes.set(xscale="log", yscale="log", xlabel="points in momentum", ylabel="relative error of the currents")
-    style.label_within_decades(axes.xaxis)
-    axes.legend(loc="upper right")
+    kinetic = table[table.series == "kinetic"].drop_duplicates(["gamma", "error"]).sort_values("cpu_seconds")
+    for (gamma, part), (marker, color, dashes) in zip(kinetic.groupby("gamma"), GAMMAS, strict=False):
+        label = rf"$\gamma = {float(gamma):g}$"
+        axes.plot(part.cpu_seconds, part.error, marker=marker, color=color, linestyle=dashes, label=label)
+    axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error of the currents")
+    axes.legend(loc="lower left")
 
 
-def draw_relaxation(axes: Axes, results: Sequence[Result]) -> None:
-    """Plots the conductivity against the relaxation time, by the start."""
-    for start, (marker, color) in STARTS.items():
-        runs = [result for result in results if result.parameters["start"] == start]
-        table = pd.DataFrame(
-            [{"time": run.parameters["relaxation-time"]} | run.columns("kappa") for run in runs]
-        )
-        axes.errorbar(table.time, table.kappa, table.kappa_error, **style.points(marker, color, label=start))
-        moving = np.array([not run.usable for run in runs])
-        style.cross_out(axes, table.time.to_numpy(), table.kappa.to_numpy(), moving)
-    axes.set(xscale="log", xlabel="relaxation time", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
-    axes.legend(loc="best", title="start")
+def rms_over_target(table: pd.DataFrame) -> str:
+    """Root of the mean square of deviation over target, largest over the targets."""
+    part = table[table.series == "target"]
+    squares = (part.deviation / part.target_error) ** 2
+    return f"{float(np.sqrt(squares.groupby(part.target_error).mean().max())):.2f}"
 
 
-def draw_first_times(axes: Axes, results: Sequence[Result]) -> None:
-    """Plots the fitted amplitude of the heat in rings against the first time of the fit."""
-    table = pd.DataFrame(
-        [{"time": run.parameters["fit-from"]} | run.columns("amplitude") for run in results]
-    ).sort_values("time")
-    marker, color, _ = LOOKS["amplitude"]
-    axes.errorbar(table.time, table.amplitude, table.amplitude_error, **style.points(marker, color))
-    axes.set(xscale="log", xlabel="first time of the fit", ylabel="amplitude $A$")
-    style.label_within_decades(axes.xaxis)
+def cost_at(table: pd.DataFrame, gamma: str, largest: bool) -> str:
+    """N and CPU seconds for 1 % of kappa in the panel of the conductivity."""
+    part = table[(table.panel == "fig08") & (table.program == "conductivity") & (table.gamma == gamma)]
+    part = part[part.cells >= 16].sort_values("cells")
+    row = part.iloc[-1 if largest else 0]
+    return f"{row.cost_of_1_percent:.2g} s at N = {row.cells:g}"
 
 
-@plots("conductivity spreading persistence heat kinetic relaxation first-time")
+def caption(table: pd.DataFrame) -> str:
+    return f"""
+        (a) 1 % of κ costs {cost_at(table, "N", False)} and {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Points: deviation of κ
+        from a long run; dotted: its error, which more replicas lower; crossed out: not stationary. A longer relaxation lowers the deviation, a longer window both.
+        (d) Deviations over the target error: {rms_over_target(table)} at most (root mean square). (e) Kinetic equation. {ERRORS}"""
+
+
 def draw(results: Sequence[Result]) -> Parts:
-    series = {
-        name: [result for result in results if result.series == name] for name in ("relaxation", "first-time")
-    }
-    table = tabulate([result for result in results if result.series not in series])
-    sampled, kinetic = (part for _, part in table.groupby(table.program == "boltzmann"))
+    table = tabulate(results)
+    sampled = table[~table.series.isin(OWN) & (table.program != "boltzmann")].dropna(subset="cost_of_1_percent")
     figure, axes = plt.subplot_mosaic("aab;cde", figsize=(3 * style.COLUMN, 2 * style.HEIGHT))
-    draw_sampled(axes["a"], sampled)
-    draw_distances(axes["b"], sampled)
-    draw_relaxation(axes["c"], series["relaxation"])
-    draw_first_times(axes["d"], series["first-time"])
-    draw_kinetic(axes["e"], kinetic)
+    draw_costs(axes["a"], sampled)
+    draw_bias(axes["b"], table[table.series == "relaxation"], "relaxation_time", "relaxation time")
+    draw_bias(axes["c"], table[table.series == "window"], "observation_time", "window")
+    axes["b"].legend(loc="upper right", title="start")
+    draw_targets(axes["d"], table)
+    draw_kinetic(axes["e"], table)
     style.letter(*axes.values())
-    caption = f"""
-        Errors fall with the number of replicas. (a) Lines show 1/√t. (b) Distances from
-        the most precise estimates are divided by their errors; grey: two errors. (c) Crosses: short relaxations, whose test of stationarity fails.
-        (d) A depends on the first time of the fit. (e) For the kinetic equation the paper has {PAPER_POINTS} points."""
-    return figure, table.drop(columns="value"), caption
+    return figure, table, caption(table)

@@ -1,9 +1,7 @@
-"""Numerical stability: drift of energy and momentum against the number of collisions and towards |σ| = 1, and
-persistence over thirty orders of magnitude of the spacing.
+"""Numerical stability: rounding errors of the conserved quantities, with the collision as it is computed and as
+the paper prints it; the energy current in limits in which it is known; a chain in two units of length.
 
-The drifts are those of closed chains, which conserve both: relative changes from the start to the end of a
-replica, mean of the magnitudes over replicas. Independent rounding errors grow as the square root of the
-number of collisions.
+The exact trajectories of the chain agree in both units, but every rounding differs, as with another precision.
 """
 
 from collections.abc import Sequence
@@ -14,75 +12,148 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, format_number, parameters, scientific
+from workflow.lib.caption import ERRORS, format_number, scientific
 from workflow.lib.figure import Parts, plots
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
 TITLE = "Numerical stability"
-UNITS = {"collisions": "1"}
+UNITS = dict.fromkeys(("collisions", "ratio", "difference", "relative_error"), "1")
 
-COLLISIONS, MASSES = "collisions", "mass-ratio"
-SCALES = ("tiny", "small", "one", "large", "huge")
-LOOKS = [("o", style.BLACK), ("s", style.BLUE), ("^", style.VERMILLION), ("v", style.ORANGE)]
-DRIFTS = ["energy_drift", "momentum_drift"]
+RULES = {"elastic": ("o", style.BLUE), "printed": ("s", style.VERMILLION)}
+LIMITS = {  # series in the order of the panel, with the parameter that is extreme
+    "passing": ("gamma", r"\gamma"),
+    "light": ("sigma", r"1 + \sigma"),
+    "heavy": ("sigma", r"1 - \sigma"),
+    "hot": ("temperature_right", "T_R/T_L"),
+    "seldom": ("nu_right", r"\nu_R"),
+    "narrow": ("cell_length", r"\lambda"),
+    "wide": ("cell_length", r"\lambda"),
+}
+SIZES = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.GREEN)]
+IDENTICAL = 1e-17  # where differences of 0 are plotted
 
 
-def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run. collisions: mean number in a replica."""
+def collisions(result: Result) -> float:
+    """Collisions of a replica."""
+    return float(result.provenance["events"]) / result.replicas
+
+
+def drifts(results: Sequence[Result]) -> pd.DataFrame:
+    """Relative changes of energy and momentum, one row per run."""
     rows = []
     for result in results:
-        row = {name: result.parameters[name] for name in ("sigma", "cell-length", "observation-time")}
-        row |= {"part": result.series, "collisions": result.provenance["events"] / result.replicas}
-        rows.append(row | result.columns("mu", *DRIFTS))
+        row = {"part": result.series, "collisions": collisions(result)}
+        row |= {name: result.parameters[name] for name in ("rule", "sigma", "observation_time")}
+        rows.append(row | result.columns("energy_drift", "momentum_drift"))
+    return pd.DataFrame(rows).sort_values(["rule", "sigma", "collisions"], ignore_index=True)
+
+
+def exact_current(result: Result) -> float:
+    """J_U of ballistic particles or momenta, of which a fraction is transmitted: 1 without walls [eq. 36]."""
+    flux = np.multiply(result.ends("nu"), result.ends("temperature")) / 2
+    reflected = 0.0
+    if float(result.parameters["sigma"]) > 0.5:  # walls
+        reflected = float(result.parameters["gamma"]) / int(result.parameters["cells"])
+    walls = int(result.parameters["cells"]) * reflected / (1 - reflected)
+    return float(flux[0] - flux[1]) / (1 + walls)
+
+
+def limits(results: Sequence[Result]) -> pd.DataFrame:
+    """Energy current over its exact value, one row per run."""
+    rows = []
+    for result in results:
+        name, symbol = LIMITS[result.series]
+        value = float(result.parameters[name])
+        if name == "sigma":
+            value = 1 - abs(value)
+        elif name == "temperature_right":
+            value /= result.ends("temperature")[0]
+        current, exact = result["energy_current_mean"], exact_current(result)
+        row = {"part": result.series, "limit": f"${symbol} = ${scientific(value, 1)}"}
+        row |= {"ratio": float(current.mean) / exact, "ratio_error": float(current.error) / abs(exact)}
+        rows.append(row)
     return pd.DataFrame(rows)
 
 
-def draw_drifts(axes: Axes, x: pd.Series, part: pd.DataFrame, look: tuple[str, str], label: str) -> None:
-    """Plots the drift of energy as full symbols and that of momentum as open ones."""
-    for drift, face, text in zip(DRIFTS, (None, "white"), (label, None), strict=True):
-        axes.errorbar(x, part[drift], part[f"{drift}_error"], **style.points(*look, face, label=text))
+def partings(results: Sequence[Result]) -> pd.DataFrame:
+    """Relative difference of the particles' mean energy in two units of length, and its relative error."""
+    units: dict[tuple[int, float], list[Result]] = {}
+    for result in results:
+        key = int(result.parameters["cells"]), float(result.parameters["observation_time"])
+        units.setdefault(key, []).append(result)
+    rows = []
+    for (cells, time), (one, other) in sorted(units.items()):
+        first, second = (
+            result["particle_energy"].mean / float(result.parameters["temperature"]) for result in (one, other)
+        )
+        error = float(one["particle_energy"].error / one["particle_energy"].mean)
+        row = {"part": "unit", "cells": cells, "observation_time": time, "collisions": collisions(one)}
+        rows.append(row | {"difference": abs(float(second / first) - 1), "relative_error": error})
+    return pd.DataFrame(rows)
 
 
-def draw_collisions(axes: Axes, table: pd.DataFrame) -> None:
-    for (sigma, part), look in zip(table.groupby("sigma"), LOOKS, strict=False):
-        ordered = part.sort_values("collisions")
-        draw_drifts(axes, ordered.collisions, ordered, look, rf"$\sigma = {sigma:g}$")
-    through = np.exp(np.mean(np.log(table.energy_drift / np.sqrt(table.collisions))))
-    ends = np.array([table.collisions.min(), table.collisions.max()])
-    axes.plot(ends, through * np.sqrt(ends), **style.GUIDE)
-    axes.set(xscale="log", yscale="log", xlabel="collisions in a replica", ylabel="relative drift")
-    axes.legend(loc="upper left")
+def draw_drifts(axes: Axes, x: str, table: pd.DataFrame) -> None:
+    """Plots drifts of the energy, and with open symbols of the momentum."""
+    for rule, (marker, color) in RULES.items():
+        part = table[table.rule == rule]
+        for name, face in (("energy_drift", color), ("momentum_drift", "white")):
+            label = f"{name.partition('_')[0]}, {rule}"
+            axes.errorbar(part[x], part[name], **style.points(marker, color, face, label=label))
+    axes.set(xscale="log", yscale="log", ylabel="relative change")
 
 
-def draw_masses(axes: Axes, table: pd.DataFrame) -> None:
-    for (above, part), look in zip(table.groupby(table.sigma > 0), LOOKS[1:3], strict=True):
-        draw_drifts(axes, 1 - part.sigma.abs(), part, look, rf"$\sigma {'>' if above else '<'} 0$")
-    axes.set(xscale="log", yscale="log", xlabel=r"$1 - |\sigma|$", ylabel="relative drift")
-    axes.legend(loc="upper right")
+def draw_limits(axes: Axes, table: pd.DataFrame) -> None:
+    rows = np.arange(len(table))[::-1]
+    axes.axvline(0, **style.GUIDE)
+    axes.errorbar(1e3 * (table.ratio - 1), rows, xerr=1e3 * table.ratio_error, **style.points("o", style.BLACK))
+    axes.set(yticks=rows, yticklabels=table.limit, xlabel=r"$10^3\,(J_U/J_\mathrm{exact} - 1)$")
+    axes.tick_params(axis="y", which="minor", left=False, right=False)
 
 
-def draw_scales(axes: Axes, table: pd.DataFrame) -> None:
-    axes.errorbar(table["cell-length"], table.mu, table.mu_error, **style.points("o", style.BLACK))
-    axes.axhline(table.mu.mean(), **style.GUIDE)
-    axes.set(xscale="log", xlabel=r"spacing $\lambda$", ylabel=r"persistence $\mu$")
-    axes.margins(y=1)
+def draw_partings(axes: Axes, table: pd.DataFrame) -> None:
+    for (cells, part), (marker, color) in zip(table.groupby("cells"), SIZES, strict=False):
+        look = style.points(marker, color) | {"linestyle": "none"}
+        axes.errorbar(part.collisions, part.difference.clip(lower=IDENTICAL), label=f"$N = {cells}$", **look)
+        axes.plot(part.collisions, part.relative_error, color=color, linestyle="dotted")
+    axes.set(xscale="log", yscale="log", xlabel="collisions of a chain", ylabel="difference of energies")
+    axes.legend(loc="center left")
 
 
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    scales = table[table.part.isin(SCALES)]
-    orders = np.log10(scales["cell-length"].max() / scales["cell-length"].min())
+def parted(table: pd.DataFrame) -> str:
+    """Where trajectories part: collisions between which the averages begin to differ, by N."""
+    texts = []
+    for cells, part in table.groupby("cells"):
+        apart = part[part.difference > 1e-9]
+        texts.append(f"{scientific(apart.collisions.min(), 1)} (N = {cells})" if len(apart) else f"none (N = {cells})")
+    return ", ".join(texts)
+
+
+def caption(walks: pd.DataFrame, known: pd.DataFrame, pairs: pd.DataFrame) -> str:
+    longest = walks[walks.observation_time == walks.observation_time.max()].set_index("rule").energy_drift
+    worst = known.loc[((known.ratio - 1) / known.ratio_error).abs().idxmax()]
+    after = pairs[pairs.difference > 1e-9]
+    score = (after.difference / after.relative_error / np.sqrt(2)).max() if len(after) else np.nan
     return f"""
-        In up to {scientific(table.collisions.max())} collisions rounding errors change the conserved energy (full symbols) of closed chains ({parameters(results, "cells", "particles-per-cell")}) by at
-        most {scientific(table.energy_drift.max())} of itself, their momentum (open symbols) by {scientific(table.momentum_drift.max())}. (a) The dashed line shows a square root. (b) Scatterers
-        become infinitely light or heavy towards σ = ±1. (c) The spacing covers {orders:.0f} orders of magnitude, at σ = {format_number(scales.sigma.iloc[0])}. {ERRORS}"""
+        (a) In {scientific(walks.collisions.max())} collisions at σ = 0.3 the energy changes by {scientific(longest["elastic"])} as computed here and by {scientific(longest["printed"])} by the formula
+        printed in the paper. (b) Next to σ = ±1. (c) The energy current in limits where it is known: farthest {worst.limit}, by {format_with_error(1e3 * (worst.ratio - 1), 1e3 * worst.ratio_error)}·10⁻³. (d) One chain in
+        two units of length: trajectories part after {parted(pairs)} collisions, averages by at most {format_number(round(float(score), 1))} errors (dotted). {ERRORS}"""
 
 
-@plots("collisions mass-ratio tiny small one large huge")
+@plots(f"rounding mass-ratio unit tripled {' '.join(LIMITS)}")
 def draw(results: Sequence[Result]) -> Parts:
-    table = tabulate(results)
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(3 * style.COLUMN, style.HEIGHT))
-    draw_collisions(left, table[table.part == COLLISIONS])
-    draw_masses(middle, table[table.part == MASSES])
-    draw_scales(right, table[table.part.isin(SCALES)])
-    style.letter(left, middle, right)
-    return figure, table, caption(table, results)
+    of = {name: [result for result in results if result.series == name] for name in ("rounding", "mass-ratio")}
+    walks, masses = drifts(of["rounding"]), drifts(of["mass-ratio"])
+    known = limits([result for name in LIMITS for result in results if result.series == name])
+    pairs = partings([result for result in results if result.series in ("unit", "tripled")])
+    worse = walks[walks.sigma == walks.sigma.min()]
+    figure, axes = plt.subplot_mosaic("ab;cd", figsize=(2 * style.COLUMN, 2 * style.HEIGHT))
+    draw_drifts(axes["a"], "collisions", worse)
+    axes["a"].set_xlabel("collisions of a chain")
+    axes["a"].legend(loc="upper left")
+    draw_drifts(axes["b"], "distance", masses.assign(distance=1 - masses.sigma.abs()))
+    axes["b"].set_xlabel(r"$1 - |\sigma|$")
+    draw_limits(axes["c"], known)
+    draw_partings(axes["d"], pairs)
+    style.letter(*axes.values())
+    return figure, pd.concat([walks, masses, known, pairs]), caption(worse, known, pairs)
