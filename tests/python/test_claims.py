@@ -1,6 +1,7 @@
 """The table of claims, its messages, and how a claim is judged."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,9 +9,10 @@ import pytest
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
-from workflow.claims.data import MissingError, combination, ratio
+from workflow.claims.data import MissingError, combination, estimate, ratio
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.provenance.compare import error_of_difference
 
 ROWS = judge.read_claims(ROOT)
 
@@ -79,3 +81,14 @@ def test_errors_of_ratios_and_sums() -> None:
     assert total.error == pytest.approx(0.5)
     scaled = first / -2 - 1
     assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)
+
+
+def test_fitted_control_variates_take_degrees_of_freedom() -> None:
+    """Also those of the error of a difference between two results."""
+    exact = next(iter(of_sizes(float).results("fig08", "every")))
+    plain = exact["kappa"]
+    fitted = replace(plain, control_variates=6)
+    number = estimate(replace(exact, quantities={"kappa": fitted}), "kappa")
+    assert number.dof == plain.replicas - 7
+    _, dof = error_of_difference(fitted, fitted, shared=False)
+    assert dof == 2 * (plain.replicas - 7)

@@ -45,7 +45,7 @@ def result(run: str, options: dict[str, Any], program: str = "sampled", **laws: 
         coordinates = {axis: np.asarray(points, dtype=float) for axis, points in axes.items()}
         computed = program == "boltzmann"
         errors = (None, 0 * mean, None) if computed else (errors_of(mean), None, np.full(mean.shape, 64))
-        quantities[name] = Quantity(mean, *errors, coordinates, "1", dict.fromkeys(axes, "1"), None)
+        quantities[name] = Quantity(mean, *errors, coordinates, "1", dict.fromkeys(axes, "1"), 0)
     provenance = {
         "program": program,
         "converged": "no target",

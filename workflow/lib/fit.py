@@ -10,28 +10,15 @@ LEVEL = 1e-2  # p-value below which a law is rejected
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """y ~ x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
+    """y ~ x^exponent, with the error of the exponent and the p-value of the points, nan for two of them."""
 
     exponent: float
     error: float
-    chi_square: float
-    dof: int
+    p_value: float
 
     @property
     def rejected(self) -> bool:
-        return rejected(self.chi_square, self.dof)
-
-
-def p_value(chi_square: float, dof: int) -> float:
-    """p-value of chi^2; nan without a degree of freedom."""
-    # Imported here: most panels need no p-value, and the import takes a tenth of their time.
-    from scipy.special import chdtrc  # noqa: PLC0415
-
-    return float(chdtrc(dof, chi_square)) if dof > 0 else np.nan
-
-
-def rejected(chi_square: float, dof: int) -> bool:
-    return p_value(chi_square, dof) < LEVEL
+        return self.p_value < LEVEL
 
 
 def format_with_error(value: float, error: float, systematic: float = 0) -> str:
@@ -52,21 +39,26 @@ def format_with_error(value: float, error: float, systematic: float = 0) -> str:
     return "".join([f"{value:.{digits}f}", *(f"({shown})" for shown in brackets)]).replace("-", "−")
 
 
-def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
-    """Weighted mean of independent values, its error, and chi^2 of the values."""
-    value, error = (np.asarray(values, dtype=float) for values in (value, error))
-    mean = float(np.average(value, weights=error**-2))
-    return mean, float(np.sum(error**-2) ** -0.5), float(np.sum(((value - mean) / error) ** 2))
+def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike, dof: ArrayLike) -> PowerLaw:
+    """Power law by a line through ln y against ln x, weighted with the standard errors of the points, which
+    have dof degrees of freedom. Weights from such errors scatter: the error of the exponent includes this to
+    first order in 1/dof (Kenward and Roger 1997), and the p-value is that of Welch's test (1951). With errors
+    taken as exact, those from 8 replicas would reject 4 to 7 % of true laws at the level of 1 %."""
+    # Imported here: most panels need no p-value, and the import takes a tenth of their time.
+    from scipy.special import fdtrc  # noqa: PLC0415
 
-
-def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
-    """Power law by a line through ln y against ln x, weighted with the standard errors of the points."""
-    x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
-    relative = error / y
+    x, y, error, dof = (np.asarray(values, dtype=float) for values in (x, y, error, dof))
+    relative, uncertainty = error / y, 1 / np.maximum(dof, 1)
     design = np.stack([np.ones_like(x), np.log(x)], axis=1) / relative[:, None]
     covariance = np.linalg.inv(design.T @ design)
     solution = covariance @ design.T @ (np.log(y) / relative)
     residual = np.log(y) / relative - design @ solution
-    return PowerLaw(
-        float(solution[1]), float(np.sqrt(covariance[1, 1])), float(residual @ residual), len(x) - 2
-    )
+    free = 1 - np.sum(design @ covariance * design, axis=1)  # 1 minus the leverage of each point
+    scatter = (design.T * (4 * free * uncertainty)) @ design
+    variance = (covariance + covariance @ scatter @ covariance)[1, 1]
+    number, lost = len(x) - 2, max(1e-9, float(free**2 @ np.broadcast_to(uncertainty, x.shape)))
+    p_value = np.nan
+    if number > 0:
+        expected = number + 2 * (number - 1) / (number + 2) * lost
+        p_value = float(fdtrc(number, number * (number + 2) / (3 * lost), residual @ residual / expected))
+    return PowerLaw(float(solution[1]), float(np.sqrt(variance)), p_value)
