@@ -1,6 +1,7 @@
 """Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs."""
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,6 +37,7 @@ NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
 NAMES: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True}
 NEW = " (after a change of the programs: run make build)"
 SAFE = YAML(typ="safe", pure=True)
+DECIMAL = re.compile(r"(?<![\w.])[0-9]*\.[0-9]+(?:[eE][-+]?[0-9]+)?")
 
 
 class ConfigurationError(ValueError):
@@ -74,9 +76,11 @@ class Document:
 
 
 def read(folder: Path, name: str) -> Document:
-    """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
+    """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys and rounding errors."""
     try:
-        root = SAFE.compose((folder / name).read_text("utf-8"))
+        text = (folder / name).read_text("utf-8")
+        require_short(text, f"{_shown(folder / name)}:")
+        root = SAFE.compose(text)
         # This also merges the mappings of the node.
         content = SAFE.constructor.construct_document(root) if root else None
         return Document(_shown(folder / name), root, content)
@@ -88,6 +92,19 @@ def read(folder: Path, name: str) -> Document:
         raise ConfigurationError(f"{_shown(folder / name)}:{position}: {error.problem}") from error
     except (YAMLError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
+
+
+def require_short(text: str, where: str = "") -> None:
+    """Raises ConfigurationError for a number that differs from one of 12 digits by a rounding error, as
+    0.30000000000000004 from a loop: it would name another run, with another seed. where: before the line."""
+    for line, content in enumerate(text.splitlines(), 1):
+        for number in DECIMAL.findall(content.partition("#")[0]):
+            short = f"{float(number):.12g}"
+            if 0 < abs(float(number) - float(short)) < 1e-14 * abs(float(short)):
+                position = f"{where}{line}: " * bool(where)
+                raise ConfigurationError(
+                    f"{position}{number} is {short} with a rounding error: write {short}"
+                )
 
 
 def _shown(path: Path) -> str:

@@ -28,6 +28,7 @@ from workflow.pipeline.configuration import (
     arguments,
     load_configuration,
     programs_of,
+    require_short,
 )
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import NUMBER, evaluated
@@ -123,6 +124,7 @@ class Selection:
             pattern, number, allowed = OVERRIDES[key]
             if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
+            require_short(text)
             values[key] = number(text)
         if "error" in values and "replicas" in values:
             raise ConfigurationError(
