@@ -20,6 +20,7 @@ Edit = Callable[[Project], object]
 MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"
 FEW, AGEING = "data/smoke/energy/few.*.h5", "data/smoke/energy/ageing.*.h5"
 RECORD, TABLE = "figures/smoke/mu.*.json", "figures/smoke/mu.csv"
+LOADED = "from workflow import load_panel; print(*load_panel('mu', quality='smoke'))"
 
 
 def edit_value(project: Project) -> None:
@@ -186,9 +187,20 @@ def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -
     assert provenance(project, copy).startswith("unmodified, stale: sources of persistence")
     edit_value(project)
     assert "edited" in provenance(project, project.one(MU), status=1)
-    remove("build/describe/*")(project)
-    assert "run make build first" in provenance(project, copy, status=1)
-    assert len(project.entry("status", status=1).splitlines()) == 1
+
+
+@pytest.mark.parametrize("words", ["status", "audit", "figures DRY=yes"])
+def test_reading_needs_no_program(project: Project, words: str) -> None:
+    """As in a fresh clone. What computes needs the programs, and they validate their options."""
+    copy = project.one(MU)
+    printed = project.entry(*words.split()), provenance(project, copy)
+    shutil.rmtree(project.folder / "build/bin")
+    shutil.rmtree(project.folder / "build/describe")
+    assert (project.entry(*words.split()), provenance(project, copy)) == printed
+    loaded = project.run(".venv/bin/python", "-c", LOADED).stdout
+    assert "all_sigma=0.5" in loaded
+    copy.unlink()
+    assert "run make build" in project.entry("figures", status=1)
 
 
 def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:

@@ -17,6 +17,7 @@ from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import POLYNOMIAL
+from workflow.pipeline.sources import programs as names_of_programs
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
@@ -120,9 +121,9 @@ def panel_names(folder: Path = CONFIGURATION) -> list[str]:
 
 
 def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
-    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError, BuildError before
-    the programs are compiled."""
-    programs: dict[str, Schema] = options_of_programs()
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Options of a program that is not compiled are not
+    validated: reading needs no compiler, and nothing is computed before. Raises ConfigurationError."""
+    programs: dict[str, Schema] = {name: {} for name in names_of_programs()} | options_of_programs()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
     paper.check(_physics(paper.content, programs))
@@ -188,7 +189,9 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     physics = {name for options in programs.values() for name in options if name not in EFFORT_OPTIONS}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
-    every = {name: schema for one in series.values() for name, schema in one["properties"].items()}
+    every: Schema = dict.fromkeys(EFFORT_OPTIONS, True)
+    for one in series.values():
+        every |= one["properties"]
     panels = {}
     for name, panel in paper["panels"].items():
         of_series = {key: series[program] for key, program in programs_of(panel).items()}
@@ -201,7 +204,9 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
-    """Schema of the options of a program, each with a value or a list of distinct values."""
+    """Schema of the options of a program, of any if there are none, each with a value or a list of distinct values."""
+    if not options:
+        return {"properties": {}}
     several = {"minItems": 1, "uniqueItems": True}
     if "replicas" in options:
         options = options | {ERROR: FRACTION}

@@ -30,9 +30,8 @@ from workflow.pipeline.configuration import (
     programs_of,
     require_short,
 )
-from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import NUMBER, evaluated
-from workflow.pipeline.sources import source_hash
+from workflow.pipeline.sources import is_sampled, source_hash
 
 RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
 FIGURES = "figures"
@@ -283,7 +282,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             continue
         own = dict(panel["series"][series])
         own.pop("program", None)
-        replicated, scale = "replicas" in options_of_programs()[program], own.pop("target-scale", None)
+        replicated, scale = is_sampled(program), own.pop("target-scale", None)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))
         physics = {**panel.get("common", {}), **own}

@@ -34,7 +34,7 @@ def is_built(program: str) -> bool:
 
 def require_built(program: str) -> None:
     """Raises BuildError."""
-    if not (PROGRAMS / program).is_file():
+    if not ((PROGRAMS / program).is_file() and (DESCRIPTIONS / f"{program}.json").is_file()):
         raise BuildError(f"build/bin/{program} is missing: run make build")
     if not is_built(program):
         raise BuildError(f"build/bin/{program} is not built from the present sources: run make build")
