@@ -112,7 +112,10 @@ def prepare(target: str, options: argparse.Namespace) -> None:
         require_panel(name, known)
     if target in COMPILED and not options.dry:
         lock_products()
-        build()
+        options.failed = build()
+        if options.failed:
+            print(f"{', '.join(options.failed)}: not compiled, for the reason above", file=sys.stderr)
+            options.failed = target == "build"
     options.plan = load_plan(options.quality)
     if target == "figures":
         options.panels = default_panels(options.plan)
@@ -205,7 +208,7 @@ def main() -> int:
         os.chdir(ROOT)
         prepare(target, options)
         if target == "build":
-            return 0
+            return int(bool(options.failed))
         if target in DONE:
             return make(target, options)
         options.render = target == "audit"

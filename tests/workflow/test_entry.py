@@ -65,6 +65,23 @@ def test_reading_keeps_an_environment_that_does_not_run(tmp_path: Path) -> None:
     assert not (tmp_path / ".cache").exists()
 
 
+def test_a_copied_build_is_refused_by_ninja(tmp_path: Path) -> None:
+    """As it would compile the sources of the original."""
+    ninja = ("ninja", "-C", shutil.copytree(ROOT / "build", tmp_path / "build", symlinks=True))
+    done = Project(tmp_path).run(*ninja, "persistence", status=1)
+    assert str(ROOT) in done.stdout
+    assert "make build" in done.stdout
+
+
+@pytest.mark.parametrize("words", [["help"], ["status", "QUALITY=smoke"]])
+def test_nothing_depends_on_mode_bits(project: Project, words: list[str]) -> None:
+    """As those of an archive that is unpacked by Python's zipfile."""
+    for name in ("workflow", "profiles", "cpp", "Makefile", "Snakefile"):
+        for path in (project.folder / name, *(project.folder / name).rglob("*")):
+            path.chmod(0o755 if path.is_dir() else 0o644)
+    project.run("make", *words)
+
+
 def test_another_folder_is_refused(project: Project, tmp_path: Path) -> None:
     """As results and figures would be written there."""
     other = tmp_path / "other"
