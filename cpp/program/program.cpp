@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <limits>
@@ -147,11 +150,13 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
   const std::vector<Description> described = text ? std::vector<Description>() : quantities();
   if (describe_) text = describe(options_, description_, described);
   if (text) {
-    fmt::print("{}", *text);
+    if (std::fputs(text->c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+      throw UsageError(
+          fmt::format("the standard output cannot be written: {}. Choose another.", std::strerror(errno)));
     return 0;
   }
-  if (output_.empty())
-    throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
+  if (output_.empty() || output_ == "-")
+    throw UsageError("--output has no file, which the results need. Add --output FILE.h5.");
   for (const std::string& path : {output_, cost_path(output_)}) require_writable(path);
   require_replaceable();
   return static_cast<int>(compute());

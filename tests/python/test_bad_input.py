@@ -1,11 +1,12 @@
 """Bad input: exit status 2, no file, and one line that names the option.
 tests/cpp/program/options_test.cpp has values that are not allowed by themselves."""
 
+import subprocess
 from pathlib import Path
 
 import pytest
 
-from tests.python.conftest import Program
+from tests.python.conftest import ROOT, Program
 
 RANDOM = {"rule": "random-direction"}
 BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
@@ -16,6 +17,7 @@ BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
         {"reversal-probability": None, "rule": "reversal"},
         {"zero-total-momentum": True, **RANDOM},
         {"output": None},
+        {"output": "-"},
     ],
     "displacement": [{"fit-decades": 1.5, "decades": 1}, {"replicas": 10**8}, {"decades": 15, "observation-time": 1e-3, "relaxation-time": 100}],
     "energy_pulse": [{"times": "0.02,0.01"}, {"pulse-cells": 22}, {"cells": 6}, {"relaxation-time": 1e12}],
@@ -36,3 +38,18 @@ def test_refused(program: Program, tmp_path: Path, name: str, options: dict[str,
     assert result.stderr.count("\n") == 1
     assert f"--{next(iter(options))}" in result.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("option", ["--describe", "--help", "--version"])
+def test_an_output_that_is_full(option: str) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [ROOT / "build/bin/persistence", option],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert done.stderr.startswith("persistence: error: the standard output ")
+    assert done.stderr.count("\n") == 1
