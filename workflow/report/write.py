@@ -18,7 +18,7 @@ from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.columns import TableError, require_whole
 from workflow.lib.files import format_os_error, write_atomically
-from workflow.lib.identity import ROOT
+from workflow.lib.identity import ROOT, statement
 from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import commit, reduced, write_product
 from workflow.pipeline.configuration import ConfigurationError
@@ -151,8 +151,9 @@ def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     data = Data(quality, root)
     judgements = judge_all(data)
     if not gallery:
-        page = rendered(judgements, data, release=False)
         name = identity_of(data.plan, REPORT, quality)
+        line = f"<!-- {statement(REPORT, quality, name)} -->\n".encode()
+        page = rendered(judgements, data, release=False) + line
         parents = [record_of(data.plan, panel, quality) for panel in data.plan]
         record = {"quality": quality, "identity": name, "commit": commit(), "parents": parents}
         write_product(root / stem_of(REPORT, quality), name, {"html": page}, record)

@@ -131,7 +131,9 @@ class Product:
         return self._fault_of_rendering() if render else None
 
     def changes(self, former: Mapping[str, str]) -> str:
-        """What differs from the parents of a former figure."""
+        """What differs from the parents of a former product."""
+        if self.name == REPORT:
+            return "other results, figures or sources"
         panel = self.plan[self.name]
         sources = sources_of_panel(panel.script, panel.reads)
         results = {path for path in former if path.endswith(".h5") and path not in sources}
@@ -144,11 +146,9 @@ class Product:
         if self.path.exists():
             return Fault("edited", str(self.path), "it is damaged; remove it")
         former = next((known for path in siblings(self.path) if (known := read_record(path))), None)
-        if self.name == REPORT:
-            return Fault("stale", self.shown, "other results, figures or sources")
-        if former is None:
+        if former is None and self.name != REPORT:
             return Fault("missing", str(self.path), "it is not there")
-        return Fault("stale", self.shown, self.changes(former["parents"]))
+        return Fault("stale", self.shown, self.changes((former or {}).get("parents", {})))
 
     def _fault_of_rendering(self) -> Fault | None:
         again = Path("build/audit", self.quality, self.name)

@@ -44,7 +44,8 @@ class Difference(NamedTuple):
     quantity: str
 
     def __str__(self) -> str:
-        return f"{self.deviation:.2g} standard errors ({self.quantity}), p = {self.p:.2g}"
+        judged = f", p = {self.p:.2g}" * (self.dof >= FEW)
+        return f"{self.deviation:.2g} standard errors ({self.quantity}){judged}"
 
 
 class Comparison(NamedTuple):
