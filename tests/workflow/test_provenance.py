@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -177,6 +178,19 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     assert "sources of persistence differ here" in printed
     remove("build/records/smoke/*")(project)
     assert "panel mu, quality smoke" in provenance(project, copy, status=3)
+
+
+def test_a_read_only_project(project: Project) -> None:
+    for path in (project.folder, *project.folder.rglob("*")):
+        if not path.is_symlink():
+            path.chmod(path.stat().st_mode & ~0o222)
+    user = ("setpriv", "--bounding-set=-dac_override") if os.geteuid() == 0 else ()
+    for words in (
+        ("status", "QUALITY=smoke"),
+        ("audit", "QUALITY=smoke"),
+        ("provenance", f"FILE={project.one(MU)}"),
+    ):
+        project.run(*user, ".venv/bin/python", "-I", "-m", "workflow", *words)
 
 
 def test_provenance_names_the_files_that_a_script_reads(project: Project) -> None:
