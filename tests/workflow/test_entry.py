@@ -2,11 +2,12 @@
 
 import shutil
 import signal
+import sys
 from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import ROOT, Project
+from tests.workflow.conftest import ROOT, Project, plain
 
 INTERRUPTED = """
 import os, runpy, signal, sys
@@ -101,6 +102,34 @@ def test_nothing_depends_on_mode_bits(project: Project, words: list[str]) -> Non
         for path in (project.folder / name, *(project.folder / name).rglob("*")):
             path.chmod(0o755 if path.is_dir() else 0o644)
     project.run("make", *words)
+
+
+def test_a_complete_environment_needs_no_uv(tmp_path: Path) -> None:
+    """As in a copy without .cache, offline. Other packages in uv.lock, or other groups, are installed."""
+    scripts = tmp_path / "workflow/pipeline/environment"
+    scripts.mkdir(parents=True)
+    shutil.copy(ROOT / "workflow/pipeline/environment/setup.sh", scripts)
+    (scripts / "system_packages.sh").touch()
+    (tmp_path / "uv.lock").touch()
+    project, uv = Project(tmp_path), tmp_path / "bin/uv"
+    project.run(sys.executable, "-m", "venv", "--without-pip", ".venv")
+    uv.parent.mkdir()
+    uv.write_text("#!/bin/bash\necho uv 99.0.0\necho called >&2\n")
+    uv.chmod(0o755)
+
+    def installs(*groups: str) -> bool:
+        path = f"{uv.parent}:{plain()['PATH']}"
+        return "called" in project.run("bash", scripts / "setup.sh", *groups, PATH=path).stdout
+
+    assert [installs(), installs(), installs("dev"), installs("dev"), installs()] == [
+        True,
+        False,
+        True,
+        False,
+        False,
+    ]
+    (tmp_path / "uv.lock").write_text("other")
+    assert installs()
 
 
 def test_another_folder_is_refused(project: Project, tmp_path: Path) -> None:
