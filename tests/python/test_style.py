@@ -1,8 +1,9 @@
-"""Figures do not depend on installed fonts."""
+"""Figures do not depend on installed fonts; labels and colours follow rcParams."""
 
 from pathlib import Path
 
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import pytest
 from matplotlib import font_manager
 
@@ -23,3 +24,17 @@ def test_no_font_but_those_of_matplotlib_is_taken(family: str, monkeypatch: pyte
     assert [path.parent for path in chosen] == [own] * 3
     assert [path.stem for path in chosen] == ["STIXGeneral", "STIXSizOneSymReg", "STIXGeneral"]
     assert foreign not in fonts.ttflist
+
+
+def test_labels_and_colours_follow_the_parameters_of_matplotlib() -> None:
+    mpl.rcParams.update({"font.size": 14, "axes.prop_cycle": mpl.cycler(color=["#111111"] * 5)})
+    mpl.rcParams["legend.fontsize"] = "medium"
+    _, axes = plt.subplots()
+    style.guide_at(axes, 0, "guide")
+    (points, *_) = axes.errorbar([1], [1], [1], **style.points("o", style.SKY))
+    assert axes.texts[0].get_size() == 14
+    assert mpl.colors.to_hex(points.get_color()) == "#111111"
+    plt.close()
+    style.apply()
+    assert mpl.colors.to_hex(style.SKY) == "#56b4e9"
+    assert style.label_size() == 8
