@@ -8,7 +8,7 @@ unexport BASH_ENV ENV VIRTUAL_ENV
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .SILENT:
-OPTIONS := QUALITY PANEL SEED REPLICAS ERROR JOBS DRY FILE SAMPLE PROFILE ACCOUNT PARTITION
+OPTIONS := QUALITY PANEL SEED REPLICAS ERROR JOBS DRY FORCE FILE SAMPLE PROFILE ACCOUNT PARTITION
 $(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(error $(name) from the environment has no effect: write make $(MAKECMDGOALS) $(name)=$($(name)), or unset $(name))))
 ENTRY := .venv/bin/python -I -m workflow
 DEV := .venv/bin
@@ -25,7 +25,7 @@ audit:  ## Check every result and figure against sources, parameters and package
 status:  ## Fresh, stale (why) or missing
 verify:  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
 provenance:  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
-prune:  ## Remove a quality's results and figures that no plan names; DRY=yes: list
+prune:  ## Remove a quality's results and figures that no plan names; DRY=yes: list, FORCE=yes: also while planned ones are missing
 build:  ## The programs, in build/bin
 figures panel report gallery build: setup
 audit status verify provenance prune: present

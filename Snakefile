@@ -7,7 +7,11 @@ records decide.
 
 import os
 import shlex
+import signal
 import sys
+
+if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback before onstart
 
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.described import BuildError

@@ -14,6 +14,9 @@ import subprocess
 import sys
 from collections.abc import Iterable
 
+if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are imported: no traceback
+
 from workflow.lib.files import format_os_error
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
@@ -46,7 +49,7 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "status": ("PANEL", *SELECTION),
     "verify": ("PANEL", "SAMPLE", *SELECTION),
     "provenance": ("FILE",),
-    "prune": ("DRY", *SELECTION),
+    "prune": ("DRY", "FORCE", *SELECTION),
     "build": (),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
@@ -63,6 +66,7 @@ ALLOWED = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
     "DRY": ("yes", "yes, or leave it out"),
+    "FORCE": ("yes", "yes, or leave it out"),
 }
 
 
@@ -112,7 +116,10 @@ def prepare(target: str, options: argparse.Namespace) -> None:
         require_panel(name, known)
     if target in COMPILED and not options.dry:
         lock_products()
-        build()
+        options.failed = build()
+        if options.failed:
+            print(f"{', '.join(options.failed)}: not compiled, for the reason above", file=sys.stderr)
+            options.failed = target == "build"
     options.plan = load_plan(options.quality)
     if target == "figures":
         options.panels = default_panels(options.plan)
@@ -204,10 +211,8 @@ def main() -> int:
         options.file = os.path.abspath(options.file)
         os.chdir(ROOT)
         prepare(target, options)
-        if target == "build":
-            return 0
-        if target in DONE:
-            return make(target, options)
+        if target in COMPILED:
+            return make(target, options) if target in DONE else int(bool(options.failed))
         options.render = target == "audit"
         name = "audit" if target == "status" else target
         module = importlib.import_module(f"workflow.pipeline.provenance.{name}")
@@ -220,6 +225,8 @@ def main() -> int:
     except OSError as error:
         print(format_os_error(error), file=sys.stderr)
         return 1
+    except KeyboardInterrupt:  # of a target that stops a program first
+        return 128 + signal.SIGINT
 
 
 if __name__ == "__main__":

@@ -93,7 +93,7 @@ def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
             # With a target error the number is not that of the option.
             count = np.full(mean.shape, run.options["replicas"] + 47) if run.replicated else None
             errors = (error, None) if run.replicated else (None, error)
-            quantities[name] = Quantity(mean, *errors, count, along, "1", {}, None)
+            quantities[name] = Quantity(mean, *errors, count, along, "1", {}, 0)
         return quantities
 
     return fill

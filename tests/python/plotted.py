@@ -41,7 +41,7 @@ def result(run: str, options: dict[str, Any], program: str = "sampled", **laws: 
         coordinates = {axis: np.asarray(points, dtype=float) for axis, points in axes.items()}
         computed = program == "boltzmann"
         errors = (None, 0 * mean, None) if computed else (errors_of(mean), None, np.full(mean.shape, 64))
-        quantities[name] = Quantity(mean, *errors, coordinates, "1", dict.fromkeys(axes, "1"), None)
+        quantities[name] = Quantity(mean, *errors, coordinates, "1", dict.fromkeys(axes, "1"), 0)
     path = Path(f"data/smoke/panel/{run}.h5")
     return Result(path, {"seed": 1, **options}, {"program": program, **PROVENANCE}, quantities)
 

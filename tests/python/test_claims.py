@@ -1,6 +1,7 @@
 """The table of claims, its messages, and how a claim is judged."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,11 @@ import pytest
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
-from workflow.claims.data import MissingError, combination, ratio
+from workflow.claims.data import MissingError, combination, estimate, ratio
 from workflow.claims.fluxes import largest_distance
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.provenance.compare import error_of_difference
 
 ROWS = judge.read_claims(ROOT)
 
@@ -88,3 +90,14 @@ def test_the_error_of_a_distance_is_that_of_the_bins_with_particles() -> None:
     on. The first is empty, and has no error."""
     momentum, density, error = np.array([[-1, 1, 3], [0, 0.1, 0], [np.nan, 0.05, 0.01]])
     assert largest_distance(momentum, density, error, 1e12) == pytest.approx((0.2, 0.1), rel=1e-4)
+
+
+def test_fitted_control_variates_take_degrees_of_freedom() -> None:
+    """Also those of the error of a difference between two results."""
+    exact = next(iter(of_sizes(float).results("fig08", "deterministic")))
+    plain = exact["kappa"]
+    fitted = replace(plain, control_variates=6)
+    number = estimate(replace(exact, quantities={"kappa": fitted}), "kappa")
+    assert number.dof == plain.replicas - 7
+    _, dof = error_of_difference(fitted, fitted, shared=False)
+    assert dof == 2 * (plain.replicas - 7)

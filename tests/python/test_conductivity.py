@@ -15,7 +15,7 @@ def test_control_variates_need_replicas(program: Program, tmp_path: Path, gamma:
     scattered."""
     for replicas in (needed - 1, needed):
         done = program("conductivity", gamma=gamma, replicas=replicas, progress="log")
-        used = load(tmp_path / "out.h5")["energy_current"].control_variates
+        used = load(tmp_path / "out.h5")["energy_current"].control_variates > 0
         assert used == (replicas == needed)
         assert (f"control variates, which need {needed} replicas" in done.stderr) != used
 

@@ -1,31 +1,50 @@
-"""Fits of independent points with known errors."""
+"""Fits of independent points with estimated errors."""
 
 import numpy as np
 import pytest
-from scipy.stats import chi2
+from scipy.stats import chi2, norm, t
 
-from workflow.lib.fit import fit_power, format_with_error, local_exponents, mean_of, rejected
+from workflow.lib.fit import LEVEL, PowerLaw, fit_power, format_with_error, local_exponents
 
 SIZE = np.array([4, 8, 16, 64, 256])
+RELATIVE = np.array([0.01, 0.02, 0.01, 0.03, 0.02])  # unequal errors
+SAMPLES = 4000
+EXACT = 1e9  # degrees of freedom
 
 
-def test_fit_power_has_standard_normal_pulls_and_chi_square() -> None:
-    """With unequal errors, the pulls of the exponent are standard normal and chi^2 is chi-square
-    distributed."""
-    generator = np.random.default_rng(1)
-    exact, relative = 3 * SIZE**0.4, np.array([0.01, 0.02, 0.01, 0.03, 0.02])
-    pulls, chi_squares = [], []
-    for _ in range(400):
-        law = fit_power(SIZE, exact * (1 + relative * generator.normal(size=5)), relative * exact)
-        pulls.append((law.exponent - 0.4) / law.error)
-        chi_squares.append(law.chi_square)
-    low, high = chi2.ppf([5e-4, 1 - 5e-4], 400)
-    assert low < np.sum(np.square(pulls)) < high
-    assert (
-        not low < np.sum(np.square(pulls)) * 1.5**2 < high
-    )  # detected mistake: errors that are 1.5 times too small
-    low, high = chi2.ppf([5e-4, 1 - 5e-4], 400 * 3)
-    assert low < np.sum(chi_squares) < high
+def z_score(seen: np.ndarray, probability: float) -> float:
+    return float((seen.mean() - probability) / np.sqrt(probability * (1 - probability) / len(seen)))
+
+
+@pytest.mark.parametrize("replicas", [8, 32, 128])
+def test_errors_of_few_replicas(replicas: int) -> None:
+    """A true law is rejected at the nominal rate. The error of the exponent covers the true one as often as
+    one with at least the degrees of freedom of the points, and at most as a known one. Detected mistake:
+    errors are taken as exact."""
+    generator, dof = np.random.default_rng(2), replicas - 1
+    laws: dict[float, list[PowerLaw]] = {dof: [], EXACT: []}
+    for _ in range(SAMPLES):
+        value = 3 * SIZE**0.4 * (1 + RELATIVE * generator.normal(size=5))
+        error = RELATIVE * np.sqrt(generator.chisquare(dof, 5) / dof) * value
+        for assumed, found in laws.items():
+            found.append(fit_power(SIZE, value, error, assumed))
+    alarms, covered = (
+        {
+            assumed: np.array(
+                [one.rejected if kind else abs(one.exponent - 0.4) < one.error for one in found]
+            )
+            for assumed, found in laws.items()
+        }
+        for kind in (True, False)
+    )
+    least, most = (2 * law.cdf(1) - 1 for law in (t(dof), norm))
+    assert abs(z_score(alarms[dof], LEVEL)) < 3
+    assert z_score(covered[dof], least) > -3
+    assert z_score(covered[dof], most) < 3
+    if replicas < 128:
+        assert z_score(alarms[EXACT], LEVEL) > 3
+    if replicas == 8:
+        assert z_score(covered[EXACT], least) < -3
 
 
 def test_format_with_error_has_two_digits_of_the_error() -> None:
@@ -39,13 +58,11 @@ def test_format_with_error_has_two_digits_of_the_error() -> None:
     assert {numbers: format_with_error(*numbers) for numbers in texts} == texts
 
 
-def test_values_that_differ_are_rejected() -> None:
-    mean, error, chi_square = mean_of([1, 3], [1, 1])
-    assert (mean, error, chi_square) == pytest.approx((2, np.sqrt(0.5), 2))
-    mean, error, chi_square = mean_of([1, 6], [1, 2])  # weights 4 and 1
-    assert (mean, error, chi_square) == pytest.approx((2, np.sqrt(0.8), 5))
-    assert not rejected(chi_square, 1)
-    assert rejected(7, 1)
+def test_points_that_bend_are_rejected() -> None:
+    law = fit_power([1, 2, 4], [1, 2, 8], [0.1, 0.2, 0.8], EXACT)
+    assert law.p_value == pytest.approx(chi2.sf(np.log(2) ** 2 / (6 * 0.1**2), 1), rel=1e-6)
+    assert law.rejected
+    assert not fit_power([1, 2, 4], [1, 2, 8], [0.1, 0.2, 0.8], 7).rejected
 
 
 def test_local_exponents_and_fit_power_skip_points_without_a_value() -> None:
@@ -59,6 +76,6 @@ def test_local_exponents_and_fit_power_skip_points_without_a_value() -> None:
     np.testing.assert_allclose(
         exponent_error * steps, [*np.hypot([0.01, np.nan, 0.03, 0.04], [0.03, 0, 0.04, 0.05]), np.nan]
     )
-    law = fit_power(SIZE, y, error)
-    assert (law.exponent, law.dof) == (pytest.approx(0.4), 2)
-    assert np.isnan(fit_power(SIZE, y, np.where(SIZE == 16, np.nan, error)).exponent)
+    law = fit_power(SIZE, y, error, EXACT)
+    assert law.exponent == pytest.approx(0.4)
+    assert np.isnan(fit_power(SIZE, y, np.where(SIZE == 16, np.nan, error), EXACT).exponent)

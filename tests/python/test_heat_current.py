@@ -125,7 +125,7 @@ def ring(
 
     def quantity(mean: np.ndarray, relative: float, **axes: np.ndarray) -> Quantity:
         count = np.full(mean.shape, 64)
-        return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, None)
+        return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, 0)
 
     middle = np.sqrt(time[1:] * time[:-1])
     parameters = {"temperature": 1.0, "cell-length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit-from": 2.0,

@@ -59,7 +59,7 @@ def test_displacement_without_a_random_momentum_that_lasts(
     measure: Measure, options: dict[str, object]
 ) -> None:
     result = measure("displacement", **FEW, **options, replicas=20)
-    assert result["variance"].control_variates is False
+    assert result["variance"].control_variates == 0
 
 
 def test_displacement_is_confined_between_walls(measure: Measure) -> None:

@@ -1,5 +1,6 @@
 """Numbers of the report, and its answer by verdict."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,7 @@ from tests.python.conftest import ROOT
 from workflow.claims.data import Data
 from workflow.claims.judge import Judgement, changed, read_claims
 from workflow.claims.verdict import Band, Estimate, Outcome, Verdict
+from workflow.lib.columns import TableError
 from workflow.lib.fit import format_with_error
 from workflow.report import typeset
 from workflow.report.write import GALLERY, numbers_file, rendered
@@ -56,6 +58,14 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, an
         f"C01,literal,{verdict},first,0.5,0.001,0,{verdict}",
     ]
     assert len(lines) == 1 + len(NUMBERS) * claims
+
+
+@pytest.mark.parametrize("label", ["NA", "β #2"])
+def test_numbers_that_would_be_read_as_others_are_refused(label: str) -> None:
+    (one, *_) = judged("reproduced")
+    verdict = replace(one.verdict, numbers=(Estimate(label, 1.0, 0.1),))
+    with pytest.raises(TableError):
+        numbers_file([replace(one, verdict=verdict)])
 
 
 def test_an_answer_with_several_quantities_labels_them() -> None:

@@ -1,4 +1,4 @@
-"""Fonts, bands and axes of the figures."""
+"""Fonts, bands and axes of the figures, whose labels and colours follow rcParams."""
 
 from pathlib import Path
 
@@ -38,3 +38,17 @@ def test_a_band_reaches_one_error_to_either_side_and_a_second_axis_has_its_facto
     figure.canvas.draw()
     np.testing.assert_allclose(axes.child_axes[0].get_ylim(), (0, 40))
     plt.close(figure)
+
+
+def test_labels_and_colours_follow_the_parameters_of_matplotlib() -> None:
+    mpl.rcParams.update({"font.size": 14, "axes.prop_cycle": mpl.cycler(color=["#111111"] * 5)})
+    mpl.rcParams["legend.fontsize"] = "medium"
+    _, axes = plt.subplots()
+    style.guide_at(axes, 0, "guide")
+    (points, *_) = axes.errorbar([1], [1], [1], **style.points("o", style.SKY))
+    assert axes.texts[0].get_size() == 14
+    assert mpl.colors.to_hex(points.get_color()) == "#111111"
+    plt.close()
+    style.apply()
+    assert mpl.colors.to_hex(style.SKY) == "#56b4e9"
+    assert style.label_size() == 8

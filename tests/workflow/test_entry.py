@@ -1,11 +1,26 @@
 """The entry: mistyped options get one line and exit status 2, and make passes its options."""
 
 import shutil
+import signal
+import sys
 from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import ROOT, Project
+from tests.workflow.conftest import ROOT, Project, plain
+
+INTERRUPTED = """
+import os, runpy, signal, sys
+
+class Interrupt:
+    def find_spec(name, path=None, target=None):
+        if name == "jsonschema":
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupt)
+sys.argv = ["workflow", "status"]
+runpy.run_module("workflow", run_name="__main__", alter_sys=True)
+"""
 
 
 @pytest.mark.parametrize(
@@ -13,6 +28,8 @@ from tests.workflow.conftest import ROOT, Project
     [
         ("panel PANLE=fig05", "PANLE is not an option; did you mean PANEL?"),
         ("panel PANEL=fig5", "fig5 is not a panel; did you mean fig05?"),
+        ("panel PANEL=fig05,fig06", "fig05,fig06 is not a panel; did you mean fig05 fig06?"),
+        ("panel PANEL=fig04", "fig04 is not a panel; did you mean fig04a or fig04b?"),
         ("figures PANEL=fig03", "PANEL has no effect on figures"),
         ("figures JOBS=0", "JOBS=0 is invalid; give a whole number, at least 1"),
         ("figures PROFILE=slurm", "sbatch is not in PATH"),
@@ -22,6 +39,11 @@ def test_a_mistyped_option_gets_a_line(tmp_path: Path, words: str, line: str) ->
     printed = Project(ROOT).workflow(*words.split(), status=2, path=str(tmp_path))
     assert printed.startswith(line)
     assert len(printed.splitlines()) == 1
+
+
+def test_an_interruption_while_modules_are_imported_has_no_traceback(project: Project) -> None:
+    done = project.run(".venv/bin/python", "-c", INTERRUPTED, status=-signal.SIGINT)
+    assert done.stdout == ""
 
 
 def test_make_passes_its_options(project: Project) -> None:
@@ -63,6 +85,51 @@ def test_reading_keeps_an_environment_that_does_not_run(tmp_path: Path) -> None:
         assert "make setup" in done.stdout
     assert packages.exists()
     assert not (tmp_path / ".cache").exists()
+
+
+def test_a_copied_build_is_refused_by_ninja(tmp_path: Path) -> None:
+    """As it would compile the sources of the original."""
+    ninja = ("ninja", "-C", shutil.copytree(ROOT / "build", tmp_path / "build", symlinks=True))
+    done = Project(tmp_path).run(*ninja, "persistence", status=1)
+    assert str(ROOT) in done.stdout
+    assert "make build" in done.stdout
+
+
+@pytest.mark.parametrize("words", [["help"], ["status", "QUALITY=smoke"]])
+def test_nothing_depends_on_mode_bits(project: Project, words: list[str]) -> None:
+    """As those of an archive that is unpacked by Python's zipfile."""
+    for name in ("workflow", "profiles", "cpp", "Makefile", "Snakefile"):
+        for path in (project.folder / name, *(project.folder / name).rglob("*")):
+            path.chmod(0o755 if path.is_dir() else 0o644)
+    project.run("make", *words)
+
+
+def test_a_complete_environment_needs_no_uv(tmp_path: Path) -> None:
+    """As in a copy without .cache, offline. Other packages in uv.lock, or other groups, are installed."""
+    scripts = tmp_path / "workflow/pipeline/environment"
+    scripts.mkdir(parents=True)
+    shutil.copy(ROOT / "workflow/pipeline/environment/setup.sh", scripts)
+    (scripts / "system_packages.sh").touch()
+    (tmp_path / "uv.lock").touch()
+    project, uv = Project(tmp_path), tmp_path / "bin/uv"
+    project.run(sys.executable, "-m", "venv", "--without-pip", ".venv")
+    uv.parent.mkdir()
+    uv.write_text("#!/bin/bash\necho uv 99.0.0\necho called >&2\n")
+    uv.chmod(0o755)
+
+    def installs(*groups: str) -> bool:
+        path = f"{uv.parent}:{plain()['PATH']}"
+        return "called" in project.run("bash", scripts / "setup.sh", *groups, PATH=path).stdout
+
+    assert [installs(), installs(), installs("dev"), installs("dev"), installs()] == [
+        True,
+        False,
+        True,
+        False,
+        False,
+    ]
+    (tmp_path / "uv.lock").write_text("other")
+    assert installs()
 
 
 def test_another_folder_is_refused(project: Project, tmp_path: Path) -> None:

@@ -131,6 +131,17 @@ def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(pr
     assert mistyped == "mo is not a panel; choose one of mu, energy\n"
 
 
+def test_a_program_that_does_not_compile_blocks_no_other(project: Project) -> None:
+    (project.folder / "workflow/pipeline/environment/build.sh").write_text("exit 1\n")
+    (project.folder / "build/bin/displacement").unlink()
+    (project.folder / "figures/smoke/mu.svg").unlink()
+    line = "cpp/observables/displacement.cpp: not compiled"
+    assert line in project.entry("panel", "PANEL=mu")
+    assert line in project.workflow("build", status=1)
+    append("cpp/observables/displacement.cpp", "int x\n")(project)
+    assert "run make build" in project.entry("panel", "PANEL=energy", status=1)
+
+
 def test_a_wrong_result_is_refused_and_takes_no_other_panel_with_it(project: Project) -> None:
     """A result of another run; then a deleted file, and options in another order. test_load has the ways
     of damage."""

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -20,6 +21,7 @@ Edit = Callable[[Project], object]
 MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"
 FEW, AGEING = "data/smoke/energy/few.*.h5", "data/smoke/energy/ageing.*.h5"
 RECORD, TABLE = "figures/smoke/mu.*.json", "figures/smoke/mu.csv"
+LOADED = "from workflow import load_panel; print(*load_panel('mu', quality='smoke'))"
 
 
 def edit_value(project: Project) -> None:
@@ -139,6 +141,9 @@ def test_status_covers_the_report(project: Project) -> None:
     project.entry("report")
     project.entry("status")
     page = project.folder / "figures/smoke/report.html"
+    (project.folder / "talk.html").write_bytes(page.read_bytes())
+    printed = provenance(project, project.folder / "talk.html")
+    assert printed.startswith("unmodified, fresh\npanel report, quality smoke: make report QUALITY=smoke\n")
     page.write_bytes(content := page.read_bytes() + b"mine")
     assert "edited: figures/smoke/report.html" in project.entry("status", status=1)
     project.entry("report")
@@ -175,6 +180,34 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     assert "panel mu, quality smoke" in provenance(project, copy, status=3)
 
 
+def test_a_read_only_project(project: Project) -> None:
+    for path in (project.folder, *project.folder.rglob("*")):
+        if not path.is_symlink():
+            path.chmod(path.stat().st_mode & ~0o222)
+    user = ("setpriv", "--bounding-set=-dac_override") if os.geteuid() == 0 else ()
+    for words in (
+        ("status", "QUALITY=smoke"),
+        ("audit", "QUALITY=smoke"),
+        ("provenance", f"FILE={project.one(MU)}"),
+    ):
+        project.run(*user, ".venv/bin/python", "-I", "-m", "workflow", *words)
+
+
+def test_provenance_names_the_files_that_a_script_reads(project: Project) -> None:
+    (project.folder / "data/points.csv").write_text("1")
+    substitute("workflow/config/paper.yaml", "  mu:\n", "  mu:\n    reads: [data/points.csv]\n")(project)
+    project.entry("figures")
+    assert "reads data/points.csv\n" in provenance(project, project.folder / "figures/smoke/mu.png")
+
+
+def test_provenance_of_a_panel_that_is_not_here_suggests_no_command(project: Project) -> None:
+    (project.folder / "theirs.csv").write_text("# panel theirs, quality smoke, identity 0123456789ab\n")
+    printed = provenance(project, project.folder / "theirs.csv", status=3)
+    assert "panel theirs, quality smoke\n" in printed
+    assert "command" not in printed
+    assert "make " not in printed
+
+
 def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -> None:
     copy = Path(shutil.copy(project.one(MU), tmp_path / "mine.h5"))
     printed = provenance(project, copy)
@@ -186,9 +219,20 @@ def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -
     assert provenance(project, copy).startswith("unmodified, stale: sources of persistence")
     edit_value(project)
     assert "edited" in provenance(project, project.one(MU), status=1)
-    remove("build/describe/*")(project)
-    assert "run make build first" in provenance(project, copy, status=1)
-    assert len(project.entry("status", status=1).splitlines()) == 1
+
+
+@pytest.mark.parametrize("words", ["status", "audit", "figures DRY=yes"])
+def test_reading_needs_no_program(project: Project, words: str) -> None:
+    """As in a fresh clone. What computes needs the programs, and they validate their options."""
+    copy = project.one(MU)
+    printed = project.entry(*words.split()), provenance(project, copy)
+    shutil.rmtree(project.folder / "build/bin")
+    shutil.rmtree(project.folder / "build/describe")
+    assert (project.entry(*words.split()), provenance(project, copy)) == printed
+    loaded = project.run(".venv/bin/python", "-c", LOADED).stdout
+    assert "all_sigma=0.5" in loaded
+    copy.unlink()
+    assert "run make build" in project.entry("figures", status=1)
 
 
 def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
@@ -206,7 +250,7 @@ def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
     former = kept.rename(kept.with_name("former.0123456789ab.h5"))
     project.entry("prune")
     assert former.exists()
-    project.entry("prune", "SEED=7")
+    project.entry("prune", "SEED=7", "FORCE=yes")
     assert not former.exists()
     assert project.products() == before
 
@@ -225,6 +269,7 @@ def test_a_difference_is_judged_if_there_are_enough_replicas(
     printed = project.entry("panel", "PANEL=mu", "SEED=7", status=status)
     assert "1 of 2 results agree" in printed
     assert line in printed
+    assert ("p = " in printed) == (replicas == 32)
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -282,7 +327,9 @@ def test_results_in_git_are_of_the_release_and_stay_after_a_change(project: Proj
     substitute("cpp/observables/displacement.cpp", "#include", "int x;\n#include")(project)
     lines = project.entry("status", status=1).splitlines()
     assert [released.name in line for line in lines if "of the release" in line] == [True]
-    project.entry("prune")
+    assert "planned results are missing" in project.entry("prune", status=3)
+    assert other.exists()  # the only result
+    project.entry("prune", "FORCE=yes")
     assert released.exists()
     assert not other.exists()
 

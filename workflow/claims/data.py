@@ -62,11 +62,6 @@ class Data:
 Claim = Callable[[Data], list[Estimate]]
 
 
-def dof(*results: Result) -> float:
-    """Degrees of freedom of a number from several runs: of the run with the fewest replicas."""
-    return min(result.replicas for result in results) - 1
-
-
 def by_size(results: Iterable[Result]) -> list[Result]:
     return sorted(results, key=lambda result: result.parameters["cells"])
 
@@ -77,7 +72,7 @@ def estimate(result: Result, name: str, index: Index = (), label: str = "") -> E
     value = float(quantity.mean[index])
     if quantity.discretisation_error is not None:
         return Estimate(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
-    return Estimate(label, value, float(quantity.error[index]), dof(result))
+    return Estimate(label, value, float(quantity.error[index]), float(quantity.dof[index]))
 
 
 def ratio(above: Estimate, below: Estimate, label: str) -> Estimate:
@@ -109,19 +104,13 @@ def log_slope(first: Estimate, last: Estimate, factor: float) -> Estimate:
     return Estimate("", float(slope[0]), float(error[0]), first.dof)
 
 
-def power(
-    results: Sequence[Result], size: Sequence[float], values: Sequence[Estimate], label: str
-) -> Estimate:
+def power(size: Sequence[float], values: Sequence[Estimate], label: str) -> Estimate:
     """Exponent of a power law through independent numbers; if they reject the law, the label states it.
     The systematic error is the change of the exponent without the first number."""
-    x, y, error = (
-        np.asarray(size, float),
-        np.array([point.value for point in values]),
-        np.array([point.error for point in values]),
-    )
-    law = fit_power(x, y, error)
-    later = fit_power(x[1:], y[1:], error[1:]).exponent if len(x) > 2 else law.exponent
-    exponent = Estimate(mean_slope(label, law), law.exponent, law.error, dof(*results))
+    points = np.array([(point.value, point.error, point.dof) for point in values])
+    law = fit_power(size, *points.T)
+    later = fit_power(size[1:], *points[1:].T).exponent if len(size) > 2 else law.exponent
+    exponent = Estimate(mean_slope(label, law), law.exponent, law.error, float(points[:, 2].min()))
     return with_systematic(exponent, [later])
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from scipy.special import erf
 
-from workflow.claims.data import Data, by_size, combination, dof, estimate, power, ratio
+from workflow.claims.data import Data, by_size, combination, estimate, power, ratio
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Quantity, Result
 from workflow.physics.fluxes import SIMULATION, at, at_zero, deviations
@@ -46,8 +46,8 @@ def equilibrium(data: Data) -> list[Estimate]:
         of_particles = largest_distance(momentum, density, error, EQUAL)
         of_scatterers = largest_distance(ends.axes["momentum"], both[0], both[1], EQUAL)
         numbers += [
-            Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, dof(flux)),
-            Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, dof(profile)),
+            Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, crossing.dof.min()),
+            Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, ends.dof.min()),
         ]
     return numbers
 
@@ -94,7 +94,8 @@ def _magnitude(number: Estimate) -> Estimate:
 def _finite(data: Data) -> tuple[pd.DataFrame, float]:
     """Deviations of finite chains from the kinetic equation, and the degrees of freedom of their errors."""
     simulated = data.results("fig03_inset", "simulation")
-    return deviations(simulated + data.results("fig03_inset", "continuum", "mean-field")), dof(*simulated)
+    table = deviations(simulated + data.results("fig03_inset", "continuum", "mean-field"))
+    return table, min(run["flux"].dof.min() for run in simulated)
 
 
 def deviations_over_bounds(data: Data) -> list[Estimate]:
@@ -150,10 +151,9 @@ def _mean_magnitude(left: Estimate, right: Estimate) -> Estimate:
 def tends_to_kinetic(data: Data) -> list[Estimate]:
     """Exponent of F_N - F at p = 0, where it is largest, against N."""
     table, degrees = _finite(data)
-    runs = by_size(data.results("fig03_inset", "simulation"))
-    cells = [run.parameters["cells"] for run in runs]
+    cells = [run.parameters["cells"] for run in by_size(data.results("fig03_inset", "simulation"))]
     central = [_mean_magnitude(*_central(_of_size(table, size), degrees)) for size in cells]
-    return [power(runs, cells, central, f"d ln|F_N - F|/d ln N at p = 0, N = {cells[0]} to {cells[-1]}")]
+    return [power(cells, central, f"d ln|F_N - F|/d ln N at p = 0, N = {cells[0]} to {cells[-1]}")]
 
 
 def on_top_of_kinetic(data: Data) -> list[Estimate]:

@@ -62,9 +62,7 @@ def exponent(runs: Sequence[Result], name: str) -> Estimate:
     cells = [run.parameters["cells"] for run in runs]
     if len(runs) < 2:
         raise MissingError("fewer than two stationary sizes")
-    return power(
-        runs, cells, [estimate(run, "kappa") for run in runs], f"{name}, N = {cells[0]} to {cells[-1]}"
-    )
+    return power(cells, [estimate(run, "kappa") for run in runs], f"{name}, N = {cells[0]} to {cells[-1]}")
 
 
 def smaller_and_larger(by_size: Sequence[T]) -> list[Sequence[T]]:

@@ -68,7 +68,13 @@ def draw(results: Sequence[Result]) -> Parts:
         above.axhline(temperature, **style.GUIDE)
         side = "bottom" if lift > 0 else "top"
         above.annotate(
-            name, (x, temperature), (0, lift), textcoords="offset points", ha="center", va=side, size=8
+            name,
+            (x, temperature),
+            (0, lift),
+            textcoords="offset points",
+            ha="center",
+            va=side,
+            size=style.label_size(),
         )
     middle = np.mean(temperatures)
     above.set(ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))

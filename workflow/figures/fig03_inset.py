@@ -88,7 +88,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     for height, name in LIMITS:
         for scale, reading, look in readings:
             axes.axhline(height * scale, **style.GUIDE | look)
-            axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=8, **look)
+            axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=style.label_size(), **look)
     axes.set(xlabel="number of cells $N$", ylabel=r"$|F_N - F|\,/\,\max F$")
     style.second_axis(axes, printed, r"$|F_N - F|$ at $\int F\,dp = 1$")
     style.label_within_decades(axes.xaxis)

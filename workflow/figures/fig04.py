@@ -125,7 +125,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
                 xycoords=axes.get_yaxis_transform(),
                 ha="right",
                 va="center",
-                size=8,
+                size=style.label_size(),
                 color=color,
             )
     jumps = table.jump.abs()

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error, mean_of
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.closed import quasi_stationary
@@ -71,16 +71,20 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
 
 
 def motion(result: Result) -> str:
-    """Verb phrase on the speed of the peak: its change if that is significant, else its mean."""
-    speed = result["peak_speed"]
+    """Verb phrase on the speed of the peak: its change if that is significant, else its mean over time.
+    Speeds and positions of a run are correlated: errors of differences are at most the sum of both."""
+    speed, where = result["peak_speed"], result["peak_position"]
     known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
     if not len(known):
         return "is not resolved"
     first, last = known[[0, -1]]
-    error = np.hypot(speed.error[first], speed.error[last])
-    if abs(speed.mean[last] - speed.mean[first]) > SURE * error:
+    if abs(speed.mean[last] - speed.mean[first]) > SURE * (speed.error[first] + speed.error[last]):
         return f"changes from {style.format_quantity(speed, first)} to {style.format_quantity(speed, last)}"
-    return f"is {format_with_error(*mean_of(speed.mean[known], speed.error[known])[:2])} on average"
+    ends = [first, last + 1]  # between which the speeds are known
+    time = np.ptp(where.axes["time"][ends])
+    return (
+        f"is {format_with_error(np.ptp(where.mean[ends]) / time, where.error[ends].sum() / time)} on average"
+    )
 
 
 def caption(results: Sequence[Result]) -> str:

@@ -45,11 +45,11 @@ def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
     """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid
     units, TableError if the CSV would not be read as the table."""
     numbers = table.to_csv(index=False, float_format="%.12g", lineterminator="\n")
-    _require_whole(table, numbers)
+    require_whole(table, numbers)
     return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{numbers}"
 
 
-def _require_whole(table: pd.DataFrame, numbers: str) -> None:
+def require_whole(table: pd.DataFrame, numbers: str) -> None:
     """Raises TableError unless read_csv(comment="#") makes of the text what the script made."""
     if table.index.nlevels > 1 or table.index.name is not None or not is_integer_dtype(table.index):
         raise TableError("the index of the table is not written: return table.reset_index()")

@@ -11,28 +11,15 @@ LEVEL = 1e-2  # p-value below which a law is rejected
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """y ~ x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
+    """y ~ x^exponent, with the error of the exponent and the p-value of the points, nan for two of them."""
 
     exponent: float
     error: float
-    chi_square: float
-    dof: int
+    p_value: float
 
     @property
     def rejected(self) -> bool:
-        return rejected(self.chi_square, self.dof)
-
-
-def p_value(chi_square: float, dof: int) -> float:
-    """p-value of chi^2; nan without a degree of freedom."""
-    # Imported here: most panels need no p-value, and the import takes a tenth of their time.
-    from scipy.special import chdtrc  # noqa: PLC0415
-
-    return float(chdtrc(dof, chi_square)) if dof > 0 else np.nan
-
-
-def rejected(chi_square: float, dof: int) -> bool:
-    return p_value(chi_square, dof) < LEVEL
+        return self.p_value < LEVEL
 
 
 def format_with_error(value: float, error: float, systematic: float = 0) -> str:
@@ -53,24 +40,29 @@ def format_with_error(value: float, error: float, systematic: float = 0) -> str:
     return "".join([f"{value:.{digits}f}", *(f"({number})" for number in brackets)]).replace("-", "−")
 
 
-def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
-    """Weighted mean of independent values, its error, and chi^2 of the values."""
-    value, error = (np.asarray(values, dtype=float) for values in (value, error))
-    mean = float(np.average(value, weights=error**-2))
-    return mean, float(np.sum(error**-2) ** -0.5), float(np.sum(((value - mean) / error) ** 2))
+def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike, dof: ArrayLike) -> PowerLaw:
+    """Power law by a line through ln y against ln x, weighted with the standard errors of the points, which
+    have dof degrees of freedom. Weights from such errors scatter: the error of the exponent includes this to
+    first order in 1/dof (Kenward and Roger 1997), and the p-value is that of Welch's test (1951). With errors
+    taken as exact, those from 8 replicas would reject 4 to 7 % of true laws at the level of 1 %."""
+    # Imported here: most panels need no p-value, and the import takes a tenth of their time.
+    from scipy.special import fdtrc  # noqa: PLC0415
 
-
-def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
-    """Power law by a line through ln y against ln x, weighted with the standard errors of the points."""
-    x, y, error = _known(x, y, error)
-    relative = error / y
+    x, y, error, dof = _known(x, y, error, dof)
+    relative, uncertainty = error / y, 1 / np.maximum(dof, 1)
     design = np.stack([np.ones_like(x), np.log(x)], axis=1) / relative[:, None]
     covariance = np.linalg.inv(design.T @ design)
     solution = covariance @ design.T @ (np.log(y) / relative)
     residual = np.log(y) / relative - design @ solution
-    return PowerLaw(
-        float(solution[1]), float(np.sqrt(covariance[1, 1])), float(residual @ residual), len(x) - 2
-    )
+    free = 1 - np.sum(design @ covariance * design, axis=1)  # 1 minus the leverage of each point
+    scatter = (design.T * (4 * free * uncertainty)) @ design
+    variance = (covariance + covariance @ scatter @ covariance)[1, 1]
+    number, lost = len(x) - 2, max(1e-9, float(free**2 @ np.broadcast_to(uncertainty, x.shape)))
+    p_value = np.nan
+    if number > 0:
+        expected = number + 2 * (number - 1) / (number + 2) * lost
+        p_value = float(fdtrc(number, number * (number + 2) / (3 * lost), residual @ residual / expected))
+    return PowerLaw(float(solution[1]), float(np.sqrt(variance)), p_value)
 
 
 def local_slopes(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -78,7 +70,7 @@ def local_slopes(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarr
     without a value and for the last."""
     slopes = np.full((3, np.size(y)), np.nan)
     from_here = np.flatnonzero(np.isfinite(np.asarray(y, dtype=float)))[:-1]
-    x, y, error = _known(x, y, error)
+    x, y, error, _ = _known(x, y, error, np.nan)
     step = np.diff(x)
     slopes[:, from_here] = (x[1:] + x[:-1]) / 2, np.diff(y) / step, np.hypot(error[1:], error[:-1]) / step
     return slopes[0], slopes[1], slopes[2]
@@ -93,8 +85,7 @@ def local_exponents(
     return np.exp(middle), exponent, exponent_error
 
 
-def _known(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _known(x: ArrayLike, y: ArrayLike, error: ArrayLike, dof: ArrayLike) -> list[np.ndarray]:
     """The points that have a value. A point without an error stays: it makes the error of a fit unknown."""
-    x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
-    known = np.isfinite(y)
-    return x[known], y[known], error[known]
+    known = np.isfinite(np.asarray(y, dtype=float))
+    return [np.broadcast_to(np.asarray(each, dtype=float), known.shape)[known] for each in (x, y, error, dof)]

@@ -52,7 +52,7 @@ class Quantity:
     """Estimate with errors over axes, which map names to coordinates in the order of the dimensions.
 
     A measured quantity has a standard error and a count of replicas, a computed one a discretisation error;
-    the others are None. control_variates: whether they were used, None if the quantity has none.
+    the others are None. control_variates: number of those fitted; 1 in files that state only whether they were.
     """
 
     mean: np.ndarray
@@ -62,7 +62,7 @@ class Quantity:
     axes: dict[str, np.ndarray]
     units: str
     axis_units: dict[str, str]
-    control_variates: bool | None
+    control_variates: int
 
     @property
     def error(self) -> np.ndarray:
@@ -73,6 +73,11 @@ class Quantity:
     def replicas(self) -> np.ndarray:
         """Number of replicas. Raises FormatError for a computed quantity."""
         return _measured(self.count)
+
+    @property
+    def dof(self) -> np.ndarray:
+        """Degrees of freedom of the standard error. Raises FormatError for a computed quantity."""
+        return self.replicas - 1.0 - self.control_variates
 
     def to_frame(self) -> pd.DataFrame:
         """One row per value; attrs["units"] maps columns to theirs."""
@@ -266,14 +271,13 @@ def _quantity(parts: dict[str, h5py.Dataset]) -> Quantity:
     units = {name: _text(dataset.attrs["units"]) for name, dataset in stored.items()}
     for text in units.values():
         parse(text)
-    used = mean.attrs.get("control_variates")
     return Quantity(
         mean[()],
         **{name: stored[name][()] if name in names else None for name in VALUES[1:]},
         axes={name: stored[name][()] for name in axes},
         units=units["mean"],
         axis_units={name: units[name] for name in axes},
-        control_variates=None if used is None else bool(used),
+        control_variates=int(mean.attrs.get("control_variates", 0)),
     )
 
 

@@ -11,6 +11,7 @@ from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.rcsetup import cycler
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 from matplotlib.typing import LineStyleType, RcKeyType
 from numpy.typing import ArrayLike
@@ -27,13 +28,10 @@ HEIGHT = 3.0
 # Text in the axis labels of quantities with a dimension.
 UNITS = "$m = k_B = 1$"
 
-# Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
+# Colours of matplotlib's cycle, which apply() sets to those of Okabe and Ito (2008). Neighbours in SEQUENCE
+# differ in lightness; markers differ too.
 BLACK = "#000000"
-BLUE = "#0072B2"
-ORANGE = "#E69F00"
-GREEN = "#009E73"
-VERMILLION = "#D55E00"
-SKY = "#56B4E9"
+BLUE, ORANGE, GREEN, VERMILLION, SKY = "C0", "C1", "C2", "C3", "C4"
 
 # Colours and dashes for an ordered set of curves, with increasing lightness and increasing gaps.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
@@ -60,6 +58,7 @@ _SETTINGS: dict[RcKeyType, Any] = {
     "font.serif": ["STIXGeneral"],
     "font.size": 9,
     "mathtext.fontset": "stix",
+    "axes.prop_cycle": cycler(color=["#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9"]),
     "axes.linewidth": 0.6,
     "axes.labelsize": 9,
     "axes.titlesize": 9,
@@ -125,10 +124,15 @@ def letter(*panels: Axes, lift: float | None = None, first: int = 0) -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
+def label_size() -> float | str:
+    """Size of the text beside lines and points: that of legends, as in rcParams."""
+    return mpl.rcParams["legend.fontsize"]
+
+
 def guide_at(axes: Axes, value: float, name: str, **look: Any) -> None:
     """Horizontal guide, labelled on the right of the frame. look: what differs from GUIDE."""
     axes.axhline(value, **GUIDE | look)
-    axes.annotate(name, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
+    axes.annotate(name, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=label_size())
 
 
 def second_axis(axes: Axes, factor: float, label: str) -> None:

@@ -1,6 +1,7 @@
 """Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs."""
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,7 @@ from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import POLYNOMIAL
+from workflow.pipeline.sources import programs as names_of_programs
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
@@ -37,6 +39,7 @@ NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
 NAMES: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True}
 NEW = " (after a change of the programs: run make build)"
 SAFE = YAML(typ="safe", pure=True)
+DECIMAL = re.compile(r"(?<![\w.])[0-9]*\.[0-9]+(?:[eE][-+]?[0-9]+)?")
 
 
 class ConfigurationError(ValueError):
@@ -75,9 +78,11 @@ class Document:
 
 
 def read(folder: Path, name: str) -> Document:
-    """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
+    """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys and rounding errors."""
     try:
-        root = SAFE.compose((folder / name).read_text("utf-8"))
+        text = (folder / name).read_text("utf-8")
+        require_short(text, f"{_shown(folder / name)}:")
+        root = SAFE.compose(text)
         # This also merges the mappings of the node.
         content = SAFE.constructor.construct_document(root) if root else None
         return Document(_shown(folder / name), root, content)
@@ -89,6 +94,19 @@ def read(folder: Path, name: str) -> Document:
         raise ConfigurationError(f"{_shown(folder / name)}:{position}: {error.problem}") from error
     except (YAMLError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
+
+
+def require_short(text: str, where: str = "") -> None:
+    """Raises ConfigurationError for a number that differs from one of 12 digits by a rounding error, as
+    0.30000000000000004 from a loop: it would name another run, with another seed. where: before the line."""
+    for line, content in enumerate(text.splitlines(), 1):
+        for number in DECIMAL.findall(content.partition("#")[0]):
+            short = f"{float(number):.12g}"
+            if 0 < abs(float(number) - float(short)) < 1e-14 * abs(float(short)):
+                position = f"{where}{line}: " * bool(where)
+                raise ConfigurationError(
+                    f"{position}{number} is {short} with a rounding error: write {short}"
+                )
 
 
 def _shown(path: Path) -> str:
@@ -104,9 +122,9 @@ def panel_names(folder: Path = CONFIGURATION) -> list[str]:
 
 
 def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
-    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError, BuildError before
-    the programs are compiled."""
-    programs: dict[str, Schema] = options_of_programs()
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Options of a program that is not compiled are not
+    validated: reading needs no compiler, and nothing is computed before. Raises ConfigurationError."""
+    programs: dict[str, Schema] = {name: {} for name in names_of_programs()} | options_of_programs()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
     paper.check(_physics(paper.content, programs))
@@ -172,7 +190,9 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     physics = {name for options in programs.values() for name in options if name not in EFFORT_OPTIONS}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
-    every = {name: schema for one in series.values() for name, schema in one["properties"].items()}
+    every: Schema = dict.fromkeys(EFFORT_OPTIONS, True)
+    for one in series.values():
+        every |= one["properties"]
     panels = {}
     for name, panel in paper["panels"].items():
         of_series = {key: series[program] for key, program in programs_of(panel).items()}
@@ -185,7 +205,9 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
-    """Schema of the options of a program, each with a value or a list of distinct values."""
+    """Schema of the options of a program, of any if there are none, each with a value or a list of distinct values."""
+    if not options:
+        return {"properties": {}}
     several = {"minItems": 1, "uniqueItems": True}
     if "replicas" in options:
         options = options | {ERROR: FRACTION}

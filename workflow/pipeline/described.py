@@ -18,21 +18,14 @@ DESCRIPTIONS = ROOT / "build/describe"
 
 @cache
 def described() -> dict[str, dict[str, Any]]:
-    """What each present program prints with --describe; docs/format.md has the keys. Raises BuildError
-    before the first build."""
+    """What each compiled program prints with --describe; docs/format.md has the keys."""
     paths = {name: DESCRIPTIONS / f"{name}.json" for name in programs()}
-    built = {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
-    if not built:
-        raise BuildError(
-            "The options of the programs are unknown before they are compiled: run make build first"
-        )
-    return built
+    return {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
 
 
 @cache
 def options_of_programs() -> dict[str, dict[str, dict[str, Any]]]:
-    """JSON Schema of every option that determines a result, by program and name. Raises BuildError before
-    the first build."""
+    """JSON Schema of every option that determines a result, by compiled program and name."""
     return {
         name: {
             option: schema

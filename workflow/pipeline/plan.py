@@ -28,10 +28,10 @@ from workflow.pipeline.configuration import (
     arguments,
     load_configuration,
     programs_of,
+    require_short,
 )
-from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import NUMBER, evaluated
-from workflow.pipeline.sources import source_hash
+from workflow.pipeline.sources import is_sampled, source_hash
 
 RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
 FIGURES = "figures"
@@ -123,6 +123,7 @@ class Selection:
             pattern, number, allowed = OVERRIDES[key]
             if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
+            require_short(text)
             values[key] = number(text)
         if "error" in values and "replicas" in values:
             raise ConfigurationError(
@@ -281,7 +282,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             continue
         own = dict(panel["series"][series])
         own.pop("program", None)
-        replicated, scale = "replicas" in options_of_programs()[program], own.pop("target-scale", None)
+        replicated, scale = is_sampled(program), own.pop("target-scale", None)
         common_seed = own.pop("common-seed", False)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))

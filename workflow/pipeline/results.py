@@ -10,8 +10,7 @@ from workflow.pipeline.plan import Selection, load_plan, panel_named, runs_of
 def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:
     """The results that a panel plots, in the order in which draw() of its script gets them: those of
     panels in `uses` by PANEL/RUN, then its own by the names of the runs. They are those of the present
-    configuration and sources. Raises FormatError, ConfigurationError, BuildError before the first build,
-    OSError."""
+    configuration and sources. Raises FormatError, ConfigurationError, OSError."""
     load_plan.cache_clear()  # a session may edit the configuration
     plan = load_plan(quality)
     runs = runs_of(plan, [panel_named(plan, panel).name], quality)

@@ -43,6 +43,11 @@ def programs(cpp: Path = CPP) -> list[str]:
     return sorted(path.stem for path in (cpp / "observables").glob("[!.]*.cpp"))
 
 
+def is_sampled(program: str, cpp: Path = CPP) -> bool:
+    """Whether a program averages over replicas, hence has a seed. Raises OSError."""
+    return "StudyProgram" in (cpp / f"observables/{program}.cpp").read_text("utf-8", "surrogateescape")
+
+
 @cache
 def code_hashes(cpp: Path = CPP) -> dict[str, str]:
     """sha256 of the code of every source, by path. Raises OSError."""

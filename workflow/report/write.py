@@ -16,8 +16,9 @@ import pandas as pd
 from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
+from workflow.lib.columns import TableError, require_whole
 from workflow.lib.files import format_os_error, write_atomically
-from workflow.lib.identity import ROOT
+from workflow.lib.identity import ROOT, statement
 from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import commit, reduced, write_product
 from workflow.pipeline.configuration import ConfigurationError
@@ -125,7 +126,7 @@ def shown(judgement: Judgement) -> dict[str, Any]:
 
 
 def numbers_file(judgements: Sequence[Judgement]) -> bytes:
-    """CSV with one line per number of every claim."""
+    """CSV with one line per number of every claim. Raises TableError if it would be read as another table."""
     lines = [
         {
             "claim": judgement.row["numbers"],
@@ -140,7 +141,9 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
         for judgement in judgements
         for number in judgement.verdict.numbers
     ]
-    return pd.DataFrame(lines).to_csv(index=False, float_format="%.6g").encode()
+    text = pd.DataFrame(lines).to_csv(index=False, float_format="%.6g")
+    require_whole(pd.DataFrame(lines), text)
+    return text.encode()
 
 
 def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
@@ -148,8 +151,9 @@ def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     data = Data(quality, root)
     judgements = judge_all(data)
     if not gallery:
-        page = rendered(judgements, data, release=False)
         name = identity_of(data.plan, REPORT, quality)
+        line = f"<!-- {statement(REPORT, quality, name)} -->\n".encode()
+        page = rendered(judgements, data, release=False) + line
         parents = [record_of(data.plan, panel, quality) for panel in data.plan]
         record = {"quality": quality, "identity": name, "commit": commit(), "parents": parents}
         write_product(root / stem_of(REPORT, quality), name, {"html": page}, record)
@@ -169,7 +173,7 @@ def main() -> None:
     options = parser.parse_args()
     try:
         write(options.quality, gallery=options.gallery)
-    except (ConfigurationError, FormatError) as error:
+    except (ConfigurationError, FormatError, TableError) as error:
         sys.exit(f"make report: {error}")
     except OSError as error:
         sys.exit(f"make report: {format_os_error(error)}")

@@ -13,6 +13,12 @@ exec 9>.cache/setup.lock
 flock 9 # until another command has installed
 bash workflow/pipeline/environment/system_packages.sh "$@"
 
+groups='--no-default-groups'
+for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
+# A complete environment needs neither uv nor a network, as in a copy of the project without .cache.
+installed="$(cksum uv.lock)$groups"
+if works && grep -qsF -e "$installed" .venv/installed; then exit 0; fi
+
 version=0.13.9
 uv=$(command -v uv || true)
 if [ -z "$uv" ] || [ "$(printf '%s\n' "$version" "$("$uv" --version | cut -d ' ' -f 2)" | sort -V | head -n 1)" != "$version" ]; then
@@ -23,9 +29,6 @@ if [ ! -x "$uv" ]; then
   python3 -I -m venv --clear .cache/uv
   .cache/uv/bin/pip install --quiet --disable-pip-version-check uv==$version
 fi
-
-groups='--no-default-groups'
-for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
 # A relocatable environment may be copied and moved. A new one takes its place when it is complete.
 folder=.venv
 if ! works; then
@@ -45,3 +48,4 @@ if [ "$folder" != .venv ]; then
   fi
   mv "$folder" .venv
 fi
+echo "$installed" >>.venv/installed

@@ -11,6 +11,7 @@ made.
 import argparse
 import os
 import subprocess
+import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -21,7 +22,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from workflow.lib.files import format_os_error
-from workflow.lib.identity import sha256, siblings, sources_of_panel
+from workflow.lib.identity import ROOT, sha256, siblings, sources_of_panel
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
@@ -37,6 +38,8 @@ from workflow.pipeline.plan import (
 )
 from workflow.pipeline.records import SHORT, doubtful, panel_of, read_record, run_of
 from workflow.pipeline.sources import source_hash
+
+WRITABLE = os.access(ROOT, os.W_OK)
 
 
 class Fault(NamedTuple):
@@ -66,6 +69,12 @@ def tracked() -> set[str]:
         command = ["git", "--git-dir=.git", "ls-files", "data"]
         return {*subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()}
     return {*map(str, Path("data/paper").rglob("*"))}
+
+
+@cache
+def renderings() -> Path:
+    """Folder of figures that are rendered again: build/audit, of a read-only project a temporary one."""
+    return Path("build/audit" if WRITABLE else tempfile.mkdtemp())
 
 
 def fault_of_result(path: str, run: Run) -> Fault | None:
@@ -119,7 +128,7 @@ class Product:
         return Path(self.shown).exists() or bool(siblings(self.path))
 
     def fault(self, render: bool) -> Fault | None:
-        """render: also render in build/audit, where files stay that differ."""
+        """render: also render, in a folder where files stay that differ."""
         if not self.record:
             return self._fault_without_record()
         for kind, digest in self.record["files"].items():
@@ -131,7 +140,9 @@ class Product:
         return self._fault_of_rendering() if render else None
 
     def changes(self, former: Mapping[str, str]) -> str:
-        """What differs from the parents of a former figure."""
+        """What differs from the parents of a former product."""
+        if self.name == REPORT:
+            return "other results, figures or sources"
         panel = self.plan[self.name]
         sources = sources_of_panel(panel.script, panel.reads)
         results = {path for path in former if path.endswith(".h5") and path not in sources}
@@ -144,14 +155,12 @@ class Product:
         if self.path.exists():
             return Fault("edited", str(self.path), "it is damaged; remove it")
         former = next((known for path in siblings(self.path) if (known := read_record(path))), None)
-        if self.name == REPORT:
-            return Fault("stale", self.shown, "other results, figures or sources")
-        if former is None:
+        if former is None and self.name != REPORT:
             return Fault("missing", str(self.path), "it is not there")
-        return Fault("stale", self.shown, self.changes(former["parents"]))
+        return Fault("stale", self.shown, self.changes((former or {}).get("parents", {})))
 
     def _fault_of_rendering(self) -> Fault | None:
-        again = Path("build/audit", self.quality, self.name)
+        again = renderings() / self.quality / self.name
         job = replace(rendering_of(self.plan, self.name, self.quality), stem=str(again))
         command = [".venv/bin/python", "-m", "workflow.lib.render", job.json]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -199,7 +208,7 @@ def print_doubts(doubts: Mapping[str, list[str]]) -> None:
 def main(options: argparse.Namespace) -> int:
     quality, plan = options.quality, options.plan
     names = options.panels or [*plan]
-    if options.render:
+    if options.render and WRITABLE:
         lock_products()  # build/audit is one folder
     made = [name for name in names if Product(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)

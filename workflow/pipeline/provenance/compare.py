@@ -25,13 +25,13 @@ def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndar
         return np.asarray(a.discretisation_error), np.full(a.mean.shape, COMPUTED)
     few, many = sorted((a, b), key=lambda quantity: quantity.replicas.max(initial=0))
     if not shared:
-        return np.hypot(few.error, many.error), 2.0 * (few.replicas - 1.0)
+        return np.hypot(few.error, many.error), 2.0 * few.dof
     # s² (1/m - 1/n) for means of m of n replicas; more where control variates work only with the larger
     # number.
     with np.errstate(divide="ignore", invalid="ignore"):
         variance = many.error**2 * (many.replicas / few.replicas - 1)
     variance = np.maximum(variance, few.error**2 - many.error**2)
-    return np.where(many.replicas > few.replicas, np.sqrt(variance), many.error), few.replicas - 1.0
+    return np.where(many.replicas > few.replicas, np.sqrt(variance), many.error), few.dof
 
 
 class Difference(NamedTuple):
@@ -44,7 +44,8 @@ class Difference(NamedTuple):
     quantity: str
 
     def __str__(self) -> str:
-        return f"{self.deviation:.2g} standard errors ({self.quantity}), p = {self.p:.2g}"
+        judged = f", p = {self.p:.2g}" * (self.dof >= FEW)
+        return f"{self.deviation:.2g} standard errors ({self.quantity}){judged}"
 
 
 class Comparison(NamedTuple):

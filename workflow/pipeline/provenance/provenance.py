@@ -9,10 +9,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.identity import FORMER, read_identity_line, result_identity, sha256
+from workflow.lib.identity import FORMER, SHARED, named_identity, read_identity_line, result_identity, sha256
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import FIGURES, QUALITIES, Selection, load_plan, runs_of, stem_of
+from workflow.pipeline.plan import FIGURES, QUALITIES, REPORT, Selection, load_plan, runs_of, stem_of
 from workflow.pipeline.provenance.audit import Product
 from workflow.pipeline.records import read_record
 from workflow.pipeline.sources import source_hash
@@ -21,7 +21,8 @@ HDF5 = b"\x89HDF"  # first bytes of a file
 
 
 def print_panel(panel: str, quality: str) -> None:
-    print(f"panel {panel}, quality {quality}: make panel PANEL={panel} {Selection.parse(quality).arguments}")
+    target = panel if panel == REPORT else f"panel PANEL={panel}"
+    print(f"panel {panel}, quality {quality}: make {target} {Selection.parse(quality).arguments}")
 
 
 def print_command(origin: dict[str, Any], where: str = "") -> None:
@@ -66,7 +67,7 @@ def explain_figure(path: Path) -> int:
     content = path.read_bytes()
     if not (line := read_identity_line(content)):
         print(
-            f"{path} has no panel metadata: it is no file of a panel, or another program rewrote it; make status checks the report"
+            f"{path} has no panel metadata: it is no file of a panel or report, or another program rewrote it"
         )
         return 1
     panel, quality, identity = line
@@ -75,7 +76,7 @@ def explain_figure(path: Path) -> int:
         (path for folder in (FIGURES, FORMER) if (path := Path(folder, quality, name)).exists()), Path(name)
     )
     record = read_record(known)
-    product = Product(plan, panel, quality) if panel in plan else None
+    product = Product(plan, panel, quality) if panel in (*plan, REPORT) else None
     fresh = "fresh"
     if not product:
         fresh = "stale: there is no such panel in paper.yaml"
@@ -87,17 +88,24 @@ def explain_figure(path: Path) -> int:
     unknown = (
         f": the record of identity {identity} is not here; this command makes that of the present sources"
     )
-    print(f"{state}, {fresh}{unknown * (not record)}")
-    print_panel(panel, quality)
+    print(f"{state}, {fresh}{unknown * (not record and product is not None)}")
+    if product:
+        print_panel(panel, quality)
+    else:
+        print(f"panel {panel}, quality {quality}")
     if not record:
         return 3
-    for parent in (parent for parent in record["parents"] if parent.endswith(".h5")):
+    own = ("workflow/figures/", *SHARED)
+    for parent in (parent for parent in record["parents"] if not parent.startswith(own)):
+        if not parent.startswith("data/") or not named_identity(parent):
+            print(f"reads {parent}")
+            continue
         try:
             print_command(load_provenance(parent), f"{parent}: ")
         except (FormatError, OSError) as error:
             print(error)
     print(f"made from {len(record['parents'])} files: {known}")
-    print(f"commit {record['commit'] or 'unknown'}, rendered by {record['renderer']}")
+    print(f"commit {record['commit'] or 'unknown'}, rendered by {record.get('renderer', 'Python')}")
     return int(edited)
 
 

@@ -7,6 +7,7 @@ import argparse
 import os
 import random
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -32,6 +33,7 @@ def main(options: argparse.Namespace) -> int:
         print(f"Nothing to verify: run make figures {options.effort}")
         return 3
     lock(BUILD)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # by which execute() stops the program
     programs = sorted({runs[path].program for path in made})
     fresh = BUILD / identity([source_hash(program) for program in all_programs()])
     for former in (folder for folder in BUILD.iterdir() if folder.is_dir() and folder != fresh):
