@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from tests.python.conftest import ROOT
-from workflow.claims.data import Data, MissingError
+from workflow.claims.data import MissingError
 from workflow.lib.load import Quantity, Result
 from workflow.pipeline.described import described
 from workflow.pipeline.plan import Run, data_path, load_plan
+from workflow.report.planned import Planned
 
 DEFAULTS = {
     "cells": "continuum",
@@ -34,7 +35,7 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
     return {quantity["name"]: tuple(axis["name"] for axis in quantity["axes"]) for quantity in quantities}
 
 
-class Known(Data):
+class Known(Planned):
     """Data in which every run of some panels has the result that the function of its panel returns; other
     panels have no results."""
 

@@ -10,7 +10,7 @@ from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
 from workflow.claims.data import MissingError, combination, ratio
 from workflow.claims.verdict import Estimate, Outcome
-from workflow.pipeline.configuration import ConfigurationError
+from workflow.lib.load import FormatError
 
 ROWS = judge.read_claims(ROOT)
 
@@ -37,7 +37,7 @@ def test_a_damaged_table_is_reported_in_one_line(tmp_path: Path, damage: Callabl
     path = tmp_path / judge.CLAIMS_FILE
     path.parent.mkdir()
     path.write_text(damage((ROOT / judge.CLAIMS_FILE).read_text()))
-    with pytest.raises(ConfigurationError, match=r"data/claims\.csv: "):
+    with pytest.raises(FormatError, match=r"data/claims\.csv: "):
         judge.read_claims(tmp_path)
 
 

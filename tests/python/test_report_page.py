@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.claims.data import Data
 from workflow.claims.judge import Judgement, changed, read_claims
 from workflow.claims.verdict import Band, Estimate, Outcome, Verdict
 from workflow.lib.fit import format_with_error
 from workflow.report import typeset
+from workflow.report.planned import Planned
 from workflow.report.write import GALLERY, numbers_file, rendered
 
 NUMBERS = (Estimate("first", 0.5, 0.001), Estimate("second", 0.25, 0.002))
@@ -43,7 +43,7 @@ def judged(verdict: str) -> list[Judgement]:
     ],
 )
 def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, answer: str) -> None:
-    data = Data("smoke", ROOT)
+    data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged(verdict), data, release=True).decode()
     assert answer in page
@@ -61,14 +61,14 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, an
 def test_an_answer_with_several_quantities_labels_them() -> None:
     """Of κ by size, and of the difference in chains and in rings. Detected mistake: the largest and the
     smallest value without labels."""
-    data = Data("smoke", ROOT)
+    data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged("contradicted"), data, release=True).decode()
     assert page.count("(first: 0.5000(10); second: 0.2500(20))") == 2
 
 
 def test_an_undecided_answer_says_so() -> None:
-    data = Data("smoke", ROOT)
+    data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged("undecided"), data, release=True).decode()
     assert page.count("Undecided at quality smoke: ") == 4
@@ -80,7 +80,7 @@ def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> N
     here have it, too."""
     (tmp_path / GALLERY).mkdir(parents=True)
     (tmp_path / GALLERY / "numbers.csv").write_bytes(numbers_file(judged("contradicted")))
-    data = Data("smoke", tmp_path)
+    data = Planned("smoke", tmp_path)
     data.plan = {}
     page = rendered(judged("undecided"), data, release=False).decode()
     assert page.count("At quality paper: contradicted, 0.2500(20) to 0.5000(10).") == 4

@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from workflow.claims.data import Data
 from workflow.claims.judge import judge_all, read_claims
 from workflow.claims.verdict import Outcome
 from workflow.lib.identity import ROOT, stated
 from workflow.pipeline.plan import load_plan, runs_of, stem_of
+from workflow.report.planned import Planned
 from workflow.report.write import write
 
 PLAN = load_plan("smoke")
@@ -114,7 +114,7 @@ def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:
 
 def test_series_and_panels_of_the_user_count_for_no_claim(smoke: Path) -> None:
     """Their results are missing: a claim that needed one would state it."""
-    data, other = Data("smoke", smoke), Data("smoke", smoke)
+    data, other = Planned("smoke", smoke), Planned("smoke", smoke)
     other.plan = {}
     for name, panel in data.plan.items():
         mine = tuple(replace(run, name=f"mine_{run.name}", series="mine") for run in panel.runs)
@@ -136,7 +136,7 @@ def test_no_quality_contradicts_another(smoke: Path, gallery: Path) -> None:
     for quality in ("standard", "paper"):
         plan = load_plan(quality)
         if all((smoke / path).exists() for path in runs_of(plan, plan, quality)):
-            for judgement in judge_all(Data(quality, smoke)):
+            for judgement in judge_all(Planned(quality, smoke)):
                 key = judgement.row["numbers"], judgement.row["kind"]
                 verdicts[key][quality] = judgement.verdict.outcome.value
     assert any("smoke" in of_row for of_row in verdicts.values())

@@ -13,17 +13,14 @@ from typing import Any
 import jinja2
 import pandas as pd
 
-from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.files import format_os_error, write_atomically
-from workflow.lib.identity import ROOT
+from workflow.lib.identity import NUMBERS, RELEASE, ROOT
 from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import commit, reduced, write_product
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import (
-    NUMBERS,
-    RELEASE,
     REPORT,
     Selection,
     identity_of,
@@ -32,13 +29,14 @@ from workflow.pipeline.plan import (
     stem_of,
 )
 from workflow.report import typeset
+from workflow.report.planned import Planned
 
 GALLERY = "docs/gallery"
 SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
 MOST_NUMBERS = 12  # numbers of a claim on the page; of more, only the one that is closest to the band's edge or farthest outside
 
 
-def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> bytes:
+def rendered(judgements: Sequence[Judgement], data: Planned, *, release: bool) -> bytes:
     """The page. release: the gallery's page, with pictures in files beside it. Raises OSError."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -69,7 +67,7 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
     return page.encode()
 
 
-def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
+def panel_of(data: Planned, name: str, *, release: bool) -> dict[str, Any]:
     """A panel with its picture, and what it is made from, for the template. Raises OSError."""
     record = json.loads((data.root / record_of(data.plan, name, data.quality)).read_text("utf-8"))
     picture = base64.b64encode((data.root / f"{stem_of(name, data.quality)}.svg").read_bytes()).decode()
@@ -145,8 +143,8 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
 
 def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     """Writes the report, or the gallery. Raises ConfigurationError, FormatError, OSError."""
-    data = Data(quality, root)
-    judgements = judge_all(data)
+    data = Planned(quality, root)
+    judgements = judge_all(data, root)
     if not gallery:
         page = rendered(judgements, data, release=False)
         name = identity_of(data.plan, REPORT, quality)
