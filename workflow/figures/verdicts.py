@@ -91,7 +91,12 @@ def tabulate(judgements: Sequence[Judgement], release: Verdicts) -> pd.DataFrame
 def look_of(verdict: str, kind: str) -> style.Look:
     marker, color = LOOKS[Outcome(verdict)]
     face = color if kind == "literal" else "white"
-    look: style.Look = {"marker": marker, "color": color, "markerfacecolor": face}
+    look: style.Look = {
+        "marker": marker,
+        "color": color,
+        "markerfacecolor": face,
+        "markersize": 4.5 if marker == "X" else 3.5,
+    }
     return look | {"linestyle": "none", "markeredgewidth": 0.8}
 
 
@@ -142,16 +147,12 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame) -> str:
-    literal, intended = (table[table.kind == kind].verdict for kind in ("literal", "intended"))
-    counts = [
-        ", ".join(f"{(part == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
-        for part in (literal, intended)
-    ]
+    counts = ", ".join(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
     release = " Small symbols: verdicts of the release." if "release" in table else ""
     return f"""
-        Every line is a statement of the paper. Of {len(literal)} statements, taken literally, {counts[0]}; of {len(intended)} intended meanings (open symbols), where they
-        differ, {counts[1]}. Shown is the number that decides, with its interval: all intervals hold jointly at 95 % confidence and include bounds on systematic errors.
-        The acceptance band (grey) is −1 to 1. Where it has one edge, the unit is the distance of the number from that edge. Arrows: numbers beyond the frame.{release}"""
+        Every line is a statement of the paper, literal or, where that differs (open symbols), in its intended meaning: {counts}. Shown is the number that decides, with its
+        interval. All intervals hold jointly at 95 % confidence and include bounds on systematic errors. The acceptance band (grey) is −1 to 1. Where it has one
+        edge, the unit is the distance of the number from that edge. Arrows: numbers beyond the frame.{release}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -167,6 +168,9 @@ def plotted(table: pd.DataFrame) -> Parts:
     for y, row in table.iterrows():
         draw_row(axes, y, row)
     label_rows(axes, table)
+    if "release" in table:
+        frame = axes.get_yaxis_transform()
+        axes.text(1.06, -1, "release", transform=frame, size=6.5, ha="right", va="center")
     axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
     axes.set_xlabel("position; acceptance band: −1 to 1")
     axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
