@@ -135,6 +135,32 @@ def test_fig01() -> None:
     assert "from 7.000(80) to 9.000(96), and p_0 ∼ t^a with a = −0.9000(90)" in caption
 
 
+def test_fig01_has_fewer_curves_where_they_coincide() -> None:
+    """The last time in the upper row; first, middle and last time, whose fronts differ, below. Each keeps its
+    colour."""
+    times, bins, speeds = [2.0, 5, 9], [-3.0, -1, 1, 3], [0.1, 1.0, 10.0]
+    chains = [
+        result(
+            name, CHAIN | {"cell-length": length, "momentum-max": 4.0, "momentum-bins": 4},
+            weighted_momentum_density=(np.outer(times, bins), {"time": times, "p": bins}),
+            weighted_speed_density=(np.outer(times, speeds), {"time": times, "speed": speeds}),
+            plateau=(heights, {"time": times}), front=([0.1, 0.05, 0.02], {"time": times}), front_exponent=-0.9,
+        )
+        for name, length, heights in (("unit-chain", "1/N", [7.0, 9, 7.1]), ("unit-spacing", 1.0, [7.0, 8, 9]))
+    ]  # fmt: skip
+    (above, other, middle, other_middle, *_), table, caption = drawn("fig01", chains)
+    curves = [
+        [line for line in axes.get_lines() if line.get_label().startswith("$t")]
+        for axes in (above, other, middle, other_middle)
+    ]
+    assert [[line.get_label() for line in found] for found in curves] == [
+        ["$t = 9$"], ["$t = 2$", "$t = 5$", "$t = 9$"], ["$t = 2$", "$t = 5$", "$t = 9$"], ["$t = 2$", "$t = 5$", "$t = 9$"],
+    ]  # fmt: skip
+    assert curves[0][0].get_color() == curves[1][2].get_color()
+    assert len(table) == 2 * 3 * (4 + 3)
+    assert "Where curves coincide, fewer times are shown." in caption
+
+
 def test_fig01_inset() -> None:
     time = np.geomspace(1, 64, 7)
     filling = result(
@@ -189,7 +215,10 @@ def test_fig02_lower() -> None:
     assert_line(above, x, line)
     assert_points(below, (x, density / line, error / line))
     np.testing.assert_allclose(table.bulk, line)
-    assert "20.00(25) % at γ = 1" in caption
+    assert (
+        "first and last cell exceed a line, fitted in the shaded half, by 20.00(25) and 30.00(28) % at γ = 1"
+        in caption
+    )
 
 
 def test_fig03() -> None:

@@ -75,7 +75,9 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
 @pytest.mark.parametrize(
     ("speeds", "phrase"),
     [
-        ([np.nan, 400.0, 350.0, 300.0, np.nan], "changes from 400(10) to 300(10)"),
+        ([np.nan, 400.0, 350.0, 300.0, np.nan], "falls from 400(10) to 300(10)"),
+        ([400.0, 250.0, 300.0], "falls from 400(10) to 250(10) at t = 2 and is in the end 300(10)"),
+        ([300.0, 350.0, 400.0], "rises from 300(10) to 400(10)"),
         ([400.0, 410.0, 390.0], "is 400.0(5.8) on average"),
         ([np.nan, np.nan], "is not resolved"),
     ],
@@ -83,7 +85,8 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
 def test_the_caption_states_a_change_of_speed_if_it_is_significant(speeds: list[float], phrase: str) -> None:
     mean = np.array(speeds)
     errors = np.where(np.isnan(mean), np.nan, 10.0)
-    speed = Quantity(mean, errors, None, np.full(len(mean), 8), {}, "1/time", {}, None)
+    axes = {"middle": np.arange(len(mean)) + 1.0}
+    speed = Quantity(mean, errors, None, np.full(len(mean), 8), axes, "1/time", {}, None)
     assert fig09.motion(Result(ROOT, {}, {}, {"peak_speed": speed})) == phrase
 
 

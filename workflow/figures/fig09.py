@@ -70,15 +70,20 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
 
 
 def motion(result: Result) -> str:
-    """Verb phrase on the speed of the peak: its change if that is significant, else its mean."""
+    """Verb phrase on the speed of the peak: its mean if first and last value do not differ significantly,
+    else both, and the extreme one between them."""
     speed = result["peak_speed"]
     known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
     if not len(known):
         return "is not resolved"
     first, last = known[[0, -1]]
     error = np.hypot(speed.error[first], speed.error[last])
-    if abs(speed.mean[last] - speed.mean[first]) > SURE * error:
-        return f"changes from {style.format_quantity(speed, first)} to {style.format_quantity(speed, last)}"
+    change = speed.mean[last] - speed.mean[first]
+    if abs(change) > SURE * error:
+        extreme = known[np.argmax(np.sign(change) * speed.mean[known])]
+        texts = [style.format_quantity(speed, index) for index in (first, extreme, last)]
+        between = f"{texts[1]} at t = {speed.axes['middle'][extreme]:.2g} and is in the end "
+        return f"{'rises' if change > 0 else 'falls'} from {texts[0]} to {between * bool(extreme != last)}{texts[2]}"
     return f"is {format_with_error(*mean_of(speed.mean[known], speed.error[known])[:2])} on average"
 
 
