@@ -158,7 +158,7 @@ def test_fig01_has_fewer_curves_where_they_coincide() -> None:
     ]  # fmt: skip
     assert curves[0][0].get_color() == curves[1][2].get_color()
     assert len(table) == 2 * 3 * (4 + 3)
-    assert "Where curves coincide, fewer times are shown." in caption
+    assert "Coinciding curves are left out." in caption
 
 
 def test_fig01_inset() -> None:
@@ -216,7 +216,7 @@ def test_fig02_lower() -> None:
     assert_points(below, (x, density / line, error / line))
     np.testing.assert_allclose(table.bulk, line)
     assert (
-        "first and last cell exceed a line, fitted in the shaded half, by 20.00(25) and 30.00(28) % at γ = 1"
+        "first and last cell exceed a line through the shaded half by 20.00(25) and 30.00(28) % at γ = 1"
         in caption
     )
 

@@ -76,7 +76,7 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
     ("speeds", "phrase"),
     [
         ([np.nan, 400.0, 350.0, 300.0, np.nan], "falls from 400(10) to 300(10)"),
-        ([400.0, 250.0, 300.0], "falls from 400(10) to 250(10) at t = 2 and is in the end 300(10)"),
+        ([400.0, 250.0, 300.0], "falls from 400(10) to 250(10) at t = 2, and is then 300(10)"),
         ([300.0, 350.0, 400.0], "rises from 300(10) to 400(10)"),
         ([400.0, 410.0, 390.0], "is 400.0(5.8) on average"),
         ([np.nan, np.nan], "is not resolved"),

@@ -73,11 +73,11 @@ def number_bins(axes: Axes, result: Result) -> None:
 
 def caption(results: Sequence[Result]) -> str:
     chain, coincide = results[0], [*map(stationary, results)]
-    fewer = " Where curves coincide, fewer times are shown." if any(coincide) else ""
+    fewer = " Coinciding curves are left out." if any(coincide) else ""
     first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
         The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). At λ =
-        {run_parameters.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there). Rows show the paper's bins, bins of ln|p|, and p_0 divided by λ/(e t), its value if the flux into the chain is stationary.{fewer} {ERRORS}"""
+        {run_parameters.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there). (e), (f) Dashed: stationary flux, λ/(e t).{fewer} {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")

@@ -35,8 +35,8 @@ def caption(results: Sequence[Result]) -> str:
         for result in results
     )
     return f"""
-        The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell-length")}, {baths(results[0])}). Here the first
-        and last cell exceed a line, fitted in the shaded half, by {excess}. (a) The density grows with time, as slow particles accumulate. (b)
+        The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell-length")}, {baths(results[0])}). Here first
+        and last cell exceed a line through the shaded half by {excess}. (a) Slow particles accumulate with time. (b)
         Density divided by the lines. {ERRORS}"""
 
 

@@ -113,8 +113,8 @@ def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFr
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
     younger = format_number(results[0].parameters["relaxation-time"] / young.parameters["relaxation-time"])
     return f"""
-        The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
-        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open symbols: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
+        The paper gives the density Ψ(τ) of waiting times exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
+        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
 
 
 @plots("all young")

@@ -82,7 +82,7 @@ def motion(result: Result) -> str:
     if abs(change) > SURE * error:
         extreme = known[np.argmax(np.sign(change) * speed.mean[known])]
         texts = [style.format_quantity(speed, index) for index in (first, extreme, last)]
-        between = f"{texts[1]} at t = {speed.axes['middle'][extreme]:.2g} and is in the end "
+        between = f"{texts[1]} at t = {speed.axes['middle'][extreme]:.2g}, and is then "
         return f"{'rises' if change > 0 else 'falls'} from {texts[0]} to {between * bool(extreme != last)}{texts[2]}"
     return f"is {format_with_error(*mean_of(speed.mean[known], speed.error[known])[:2])} on average"
 
@@ -93,13 +93,13 @@ def caption(results: Sequence[Result]) -> str:
     speed = motion(results[0])
     if results[0].parameters["gamma"] == "N":
         peaks, near = "two peaks of almost constant speed", ""
-        sound = " (d) The dashed line is sound in the ring from rest."
+        sound = " (d) Dashed: sound in the ring from rest."
     else:
         peaks, sound = "peaks of constant speed", " (d) Speeds refer to intervals."
         near = " In the dips, particles are missing."
     return f"""
         The paper plots the effect ΔE(x, t) of an energy pulse and finds {peaks} ({parameters(results, "cells", "sigma", "particles-per-cell")}).
-        Here, from rest, the speed in cells per time {speed}. (a), (b) Both starts are shown.{near}{faint} (c) Dashed lines continue the
+        Here, from rest, the speed in cells per time {speed}.{near}{faint} (c) Dashed lines continue the
         first speed.{sound} {ERRORS}"""
 
 

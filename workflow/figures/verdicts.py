@@ -148,11 +148,11 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 
 def caption(table: pd.DataFrame) -> str:
     counts = ", ".join(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
-    release = " Small symbols: verdicts of the release." if "release" in table else ""
+    release = " Small symbols: release." if "release" in table else ""
     return f"""
-        Every line is a statement of the paper, literal or, where that differs (open symbols), in its intended meaning: {counts}. Shown is the number that decides, with its
-        interval. All intervals hold jointly at 95 % confidence and include bounds on systematic errors. The acceptance band (grey) is −1 to 1. Where it has one
-        edge, the unit is the distance of the number from that edge. Arrows: numbers beyond the frame.{release}"""
+        Every line is a statement of the paper, literal or in its intended meaning (open symbols): {counts}. Intervals of the number that decides hold jointly at 95 % confidence and
+        include bounds on systematic errors. Grey: acceptance band; if it has one edge, the unit is the distance of the number from that edge. Arrows: numbers beyond the
+        frame.{release}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:
