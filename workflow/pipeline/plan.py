@@ -176,7 +176,9 @@ def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
         for number, path in enumerate(panel.reads):
             inside = not Path(path).is_absolute() and ".." not in Path(path).parts
             if not inside or not (ROOT / path).exists():
-                text = f"{path} is not below {ROOT}, or not a path from there: write the file there"
+                text = (
+                    f"{path} is not a file or folder below {ROOT}, or not its path from there: write it there"
+                )
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "reads", number), text))
     return panels
 
