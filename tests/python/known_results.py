@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from tests.python.conftest import ROOT
-from workflow.claims.data import Data, MissingError
+from workflow.claims.data import MissingError
 from workflow.lib.load import Quantity, Result
 from workflow.pipeline.described import described
 from workflow.pipeline.plan import Run, data_path, load_plan
+from workflow.report.planned import Planned
 
 DEFAULTS = {
     "cells": "continuum",
@@ -34,7 +35,7 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
     return {quantity["name"]: tuple(axis["name"] for axis in quantity["axes"]) for quantity in quantities}
 
 
-class Known(Data):
+class Known(Planned):
     """Data in which every run of some panels has the result that the function of its panel returns; other
     panels have no results."""
 
@@ -51,7 +52,8 @@ class Known(Data):
             planned = replace(run, options=DEFAULTS | run.options)
             provenance = {"program": planned.program, "converged": "no target"}
             quantities = dict(self.fills[panel](planned))
-            self.loaded[path] = Result(Path(path), planned.options, provenance, quantities)
+            parameters = {name.replace("-", "_"): value for name, value in planned.options.items()}
+            self.loaded[path] = Result(Path(path), parameters, provenance, quantities)
         return self.loaded[path]
 
 

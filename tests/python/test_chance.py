@@ -60,7 +60,7 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)
     moments, scatterings, persistent, waits = np.split(rows, 2 * len(times) + np.arange(3), axis=1)
-    names = ("variance", "centre_of_mass")
+    names = ("variance", "centre_of_mass_variance")
     measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 2), 2, 0), strict=True))
     return measurements | {"scatterings": scatterings, "persistent": persistent, "waits": waits}
 
@@ -89,7 +89,7 @@ def measured(measure: Measure, chain: Chain) -> Measured:
                 np.ravel(x)[::every] for x in (result[key].mean, result[key].standard_error)
             )
 
-    add("displacement", ["variance", "centre_of_mass"], EVERY, decades=DECADES)
+    add("displacement", ["variance", "centre_of_mass_variance"], EVERY, decades=DECADES)
     add("persistence", ["mu"])
     add("waiting_time", ["density"])
     return measurements

@@ -13,7 +13,7 @@ from workflow.claims import growth, judge
 from workflow.claims.data import MissingError, combination, estimate, ratio
 from workflow.claims.fluxes import largest_distance
 from workflow.claims.verdict import Estimate, Outcome
-from workflow.pipeline.configuration import ConfigurationError
+from workflow.lib.load import FormatError
 from workflow.pipeline.provenance.compare import error_of_difference
 
 ROWS = judge.read_claims(ROOT)
@@ -41,7 +41,7 @@ def test_a_damaged_table_is_reported_in_one_line(tmp_path: Path, damage: Callabl
     path = tmp_path / judge.CLAIMS_FILE
     path.parent.mkdir()
     path.write_text(damage((ROOT / judge.CLAIMS_FILE).read_text()))
-    with pytest.raises(ConfigurationError, match=r"data/claims\.csv: "):
+    with pytest.raises(FormatError, match=r"data/claims\.csv: "):
         judge.read_claims(tmp_path)
 
 

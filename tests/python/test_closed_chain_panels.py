@@ -33,14 +33,14 @@ def test_fig06() -> None:
     """Densities 3 τ^-3 and 5 τ^-2: times these powers they are constants, to which the fit goes. The exact
     density is averaged over bins."""
     tau = np.geomspace(0.1, 1000, 9)
-    fit = {"tail-from": 20.0, "temperature": 400.0}  # the tail begins at 1
+    fit = {"tail_from": 20.0, "temperature": 400.0}  # the tail begins at 1
     runs = [
         result(f"all_sigma={sigma}", RING | fit | {"sigma": sigma}, density=(height * tau**-power, {"tau": tau}), exponent=-power)
         for sigma, power, height in ((0.0, 3.0, 3.0), (0.5, 2.0, 5.0))
     ]  # fmt: skip
     for run in runs:
         run["density"].error[...] = 0.02 * run["density"].mean
-    young = result("young", RING | fit | {"relaxation-time": 10.0}, exponent=-1.97)
+    young = result("young", RING | fit | {"relaxation_time": 10.0}, exponent=-1.97)
     (above, *strips), table, caption = draw("fig06", [*runs, young])
     for strip, run, height in zip(strips, runs, (3, 5), strict=True):
         assert_points(strip, (tau, height, 0.02 * height), ([], [], []))
@@ -61,8 +61,8 @@ def test_fig06() -> None:
 def test_fig07() -> None:
     time = np.geomspace(0.1, 100, 4)
     runs = [
-        result(run, RING | {"zero-total-momentum": zero, "fit-decades": 1.0}, variance=(factor * time**power, {"time": time}),
-               centre_of_mass=(0.3 * time**2, {"time": time}), local_slope=(np.full(3, power), {"time": time[1:]}), alpha=power)
+        result(run, RING | {"zero_total_momentum": zero, "fit_decades": 1.0}, variance=(factor * time**power, {"time": time}),
+               centre_of_mass_variance=(0.3 * time**2, {"time": time}), local_slope=(np.full(3, power), {"time": time[1:]}), alpha=power)
         for run, zero, power, factor in (("all", False, 1.8, 4.0), ("zero-momentum", True, 1.1, 5.0))
     ]  # fmt: skip
     (above, below), table, caption = draw("fig07", runs)
@@ -72,7 +72,7 @@ def test_fig07() -> None:
     random = table[~table.zero_total_momentum]
     np.testing.assert_allclose(random.fraction, 0.3 * time**2 / (4 * time**1.8))
     relative = [
-        error / mean for mean, error in (both(runs[0][name]) for name in ("centre_of_mass", "variance"))
+        error / mean for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
     assert "is 1.800(18) at N = 11 and 1.100(11) with zero total momentum" in caption
@@ -98,7 +98,7 @@ def test_fig07_inset() -> None:
     assert f"it is at least 1.650(17), at most {zero} and {directions}" in caption
 
 
-PULSE = RING | {"energy": 5000.0, "pulse-energy": 5e4, "scatterer-temperature": 0.0, "relaxation-time": 1.0}
+PULSE = RING | {"energy": 5000.0, "pulse_energy": 5e4, "scatterer_temperature": 0.0, "relaxation_time": 1.0}
 
 
 def pulses() -> list[Result]:
@@ -111,7 +111,7 @@ def pulses() -> list[Result]:
                ring_closed=([0, 0, 0], {"time": time}), peak=(factor / time**factor, {"time": time}),
                peak_position=(5 + factor * 100 * time, {"time": time}), peak_speed=([100.0 * factor, 101.0 * factor], {"middle": middle}),
                local_damping_exponent=([0.6, 0.2 * factor], {"until": time[1:]}), damping_exponent_from=([0.7, 0.71], {"from": time[:-1]}))
-        for run, start, factor in (("rest", {}, 3.0), ("gaussian", {"scatterer-temperature": "particles"}, 2.0))
+        for run, start, factor in (("rest", {}, 3.0), ("gaussian", {"scatterer_temperature": "particles"}, 2.0))
     ]  # fmt: skip
 
 

@@ -10,7 +10,7 @@ from tests.python.conftest import Program
 from workflow.pipeline.described import described, options_of_programs
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
-PROVENANCE = {"format", "format_version", "program", "words", "source_hash", "compiler", "flags", "libraries", "events",
+PROVENANCE = {"format", "format_version", "program", "option_words", "source_hash", "compiler", "flags", "libraries", "events",
               "target_quantity", "target_error", "achieved_error", "converged", "digest"}  # fmt: skip
 
 

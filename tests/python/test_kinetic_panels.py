@@ -69,17 +69,17 @@ def test_fig03_inset() -> None:
 
 def test_fig04() -> None:
     p = np.array([-3.0, -1, 1, 3])
-    chain = CHAIN | {"momentum-max": 4}
+    chain = CHAIN | {"momentum_max": 4}
     flux = 10 + np.arange(36.0).reshape(9, 4)
     jump = 1 + np.arange(9.0)
     runs = [
         result(run, chain | rates, "momentum_flux", flux=(flux + shift, {"bond": np.arange(9), "momentum": p}),
                jump=(jump + shift, {"bond": np.arange(9)}))
-        for run, shift, rates in (("deterministic", 0, {}), ("equal", 2, {"nu-left": 200.0, "nu-right": 200.0}))
+        for run, shift, rates in (("deterministic", 0, {}), ("equal", 2, {"nu_left": 200.0, "nu_right": 200.0}))
     ]  # fmt: skip
     runs += [
         result(run, chain | rates, "boltzmann", flux=(flux - 1, {"x": np.arange(9) / 8, "momentum": p}), jump=(jump - shift, {"x": np.arange(9) / 8}))
-        for run, shift, rates in (("mean-field", 0.5, {}), ("mean-field-equal", 0.7, {"nu-left": 200.0, "nu-right": 200.0}))
+        for run, shift, rates in (("mean-field", 0.5, {}), ("mean-field-equal", 0.7, {"nu_left": 200.0, "nu_right": 200.0}))
     ]  # fmt: skip
     axes, table, _ = draw("fig04", runs)
     main, near, residual, jumps = axes[:4]

@@ -22,11 +22,11 @@ def test_accuracy(monkeypatch: pytest.MonkeyPatch) -> None:
         for k in (1, 2)
     ]
     runs += [
-        result(f"relaxation_relaxation-time={t}_start={start}", CHAIN | {"start": start, "relaxation-time": t}, kappa=k + t, stationary=1.0, drift_p_value=0.5)
+        result(f"relaxation_relaxation-time={t}_start={start}", CHAIN | {"start": start, "relaxation_time": t}, kappa=k + t, stationary=1.0, drift_p_value=0.5)
         for k, start in ((10, "warm"), (20, "cold"), (30, "empty")) for t in (1.0, 10.0)
     ]  # fmt: skip
     runs += [
-        result(f"first-time_fit-from={t}", RING | {"fit-from": t}, amplitude=t / 100) for t in (1.0, 2.0)
+        result(f"first-time_fit-from={t}", RING | {"fit_from": t}, amplitude=t / 100) for t in (1.0, 2.0)
     ]
     axes, table, _ = draw("accuracy", runs)
     against, distances, relaxation, first, kinetic = axes

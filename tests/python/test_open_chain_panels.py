@@ -19,7 +19,7 @@ def test_fig01() -> None:
     times, bins, speeds = [2.0, 5, 9], [-3.0, -1, 1, 3], [0.1, 1.0, 10.0]
     front = 1.3 / (8 * np.e * np.array(times))
     filling = result(
-        "unit-chain", CHAIN | {"momentum-max": 4.0, "momentum-bins": 4},
+        "unit-chain", CHAIN | {"momentum_max": 4.0, "momentum_bins": 4},
         weighted_momentum_density=(np.outer(times, bins) ** 2, {"time": times, "p": bins}),
         weighted_speed_density=(np.outer(times, speeds), {"time": times, "speed": speeds}),
         plateau=([7.0, 8, 9], {"time": times}), front=(front, {"time": times}), front_exponent=-0.9,
@@ -35,6 +35,32 @@ def test_fig01() -> None:
     assert_points(below, (times, 1.3, filling["front"].error * 8 * np.e * times))
     assert_points(middle, (front, [7 / np.e, 8 / np.e, 9 / np.e], filling["front"].error))
     assert "from 7.000(80) to 9.000(96), and p_0 ∼ t^a with a = −0.9000(90)" in caption
+
+
+def test_fig01_has_fewer_curves_where_they_coincide() -> None:
+    """The last time in the upper row; first, middle and last time, whose fronts differ, below. Each keeps its
+    colour."""
+    times, bins, speeds = [2.0, 5, 9], [-3.0, -1, 1, 3], [0.1, 1.0, 10.0]
+    chains = [
+        result(
+            name, CHAIN | {"cell_length": length, "momentum_max": 4.0, "momentum_bins": 4},
+            weighted_momentum_density=(np.outer(times, bins), {"time": times, "p": bins}),
+            weighted_speed_density=(np.outer(times, speeds), {"time": times, "speed": speeds}),
+            plateau=(heights, {"time": times}), front=([0.1, 0.05, 0.02], {"time": times}), front_exponent=-0.9,
+        )
+        for name, length, heights in (("unit-chain", "1/N", [7.0, 9, 7.1]), ("unit-spacing", 1.0, [7.0, 8, 9]))
+    ]  # fmt: skip
+    (above, other, middle, other_middle, *_), table, caption = drawn("fig01", chains)
+    curves = [
+        [line for line in axes.get_lines() if line.get_label().startswith("$t")]
+        for axes in (above, other, middle, other_middle)
+    ]
+    assert [[line.get_label() for line in found] for found in curves] == [
+        ["$t = 9$"], ["$t = 2$", "$t = 5$", "$t = 9$"], ["$t = 2$", "$t = 5$", "$t = 9$"], ["$t = 2$", "$t = 5$", "$t = 9$"],
+    ]  # fmt: skip
+    assert curves[0][0].get_color() == curves[1][2].get_color()
+    assert len(table) == 2 * 3 * (4 + 3)
+    assert "Coinciding curves are left out." in caption
 
 
 def test_fig01_inset() -> None:
@@ -85,7 +111,10 @@ def test_fig02_lower() -> None:
     assert_line(above, x, line)
     assert_points(below, (x, density / line, error / line))
     np.testing.assert_allclose(table.bulk, line)
-    assert "20.00(25) % at γ = 1" in caption
+    assert (
+        "first and last cell exceed a line through the shaded half by 20.00(25) and 30.00(28) % at γ = 1"
+        in caption
+    )
 
 
 def test_fig08() -> None:
@@ -118,17 +147,17 @@ def test_fig08() -> None:
 def test_momentum() -> None:
     """κ/κ(16) is (N/16)^a with another a for every case, and β - 1 is a."""
     sizes, time = (16, 32, 64), np.array([2.0, 4, 8])
-    reversal = {"rule": "reversal", "reversal-probability": 0.1}
+    reversal = {"rule": "reversal", "reversal_probability": 0.1}
     cases = {"elastic": (0.3, {}), "passing": (0.2, {"gamma": 0.9}), "reversal": (0.05, reversal)}
     runs = []
-    ring = {"cells": 100, "sigma": 0.5, "fugacity": 1.0, "temperature": 1.0, "cell-length": 1.0}
+    ring = {"cells": 100, "sigma": 0.5, "fugacity": 1.0, "temperature": 1.0, "cell_length": 1.0}
     for name, (a, options) in cases.items():
         gamma = options.get("gamma", 1)
         own = {key: value for key, value in options.items() if key != "gamma"}
         series = {"elastic": "light"}.get(name, name)
         runs += [result(series, RING | ring | own | {"gamma": "N" if gamma == 1 else gamma * 100}, "heat_current",
                         heat_variance=(time ** (1 + a), {"time": time}), local_exponent=([1 + a, 1 + a], {"middle": np.sqrt([8, 32])}))]  # fmt: skip
-        runs += [result(f"chain-{name}_cells={n}", CHAIN | {"cell-length": 0.1, "cells": n} | own | {"gamma": "N" if gamma == 1 else gamma * n},
+        runs += [result(f"chain-{name}_cells={n}", CHAIN | {"cell_length": 0.1, "cells": n} | own | {"gamma": "N" if gamma == 1 else gamma * n},
                         "conductivity", kappa=7 * n**a, stationary=1.0, drift_p_value=0.5) for n in sizes]  # fmt: skip
     (chains, rings), table, caption = draw("momentum", runs)
     powers = [cases[name][0] for name in ("elastic", "reversal", "passing")]  # by passing, then by ε

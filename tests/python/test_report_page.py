@@ -1,18 +1,20 @@
 """Numbers of the report, and its answer by verdict."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.claims.data import Data
 from workflow.claims.judge import Judgement, changed, read_claims
 from workflow.claims.verdict import Band, Estimate, Outcome, Verdict
 from workflow.lib.columns import TableError
 from workflow.lib.fit import format_with_error
+from workflow.lib.load import FormatError
 from workflow.report import typeset
-from workflow.report.write import GALLERY, numbers_file, rendered
+from workflow.report.planned import Planned
+from workflow.report.write import GALLERY, in_rows, inches, numbers_file, rendered
 
 NUMBERS = (Estimate("first", 0.5, 0.001), Estimate("second", 0.25, 0.002))
 BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided": Band(0, 0.5)}
@@ -45,7 +47,7 @@ def judged(verdict: str) -> list[Judgement]:
     ],
 )
 def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, answer: str) -> None:
-    data = Data("smoke", ROOT)
+    data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged(verdict), data, release=True).decode()
     assert answer in page
@@ -71,18 +73,92 @@ def test_numbers_that_would_be_read_as_others_are_refused(label: str) -> None:
 def test_an_answer_with_several_quantities_labels_them() -> None:
     """Of κ by size, and of the difference in chains and in rings. Detected mistake: the largest and the
     smallest value without labels."""
-    data = Data("smoke", ROOT)
+    data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged("contradicted"), data, release=True).decode()
     assert page.count("(first: 0.5000(10); second: 0.2500(20))") == 2
 
 
+ROWS = {(row["numbers"], row["kind"]): row for row in read_claims(ROOT)}
+
+
+def mixed(verdicts: dict[tuple[str, str], str]) -> str:
+    """The page where these rows have other verdicts than reproduced, without tags."""
+    judgements = [
+        Judgement(row, Verdict(BANDS[verdicts.get(key, "reproduced")], NUMBERS, 0.05))
+        for key, row in ROWS.items()
+    ]
+    data = Planned("smoke", ROOT)
+    data.plan = {}
+    page = rendered(judgements, data, release=True).decode()
+    return " ".join(re.sub("<.*?>", "", page).split())
+
+
+def test_the_answer_has_a_line_for_every_figure_and_counts_at_the_end() -> None:
+    """Detected mistakes: a literal statement decides where the intended meaning has another verdict; a
+    contradicted meaning is overlooked because the numbers are reproduced; counts of the other kind."""
+    page = mixed(
+        {
+            ("C03", "literal"): "contradicted",
+            ("C02", "literal"): "undecided",
+            ("C06", "literal"): "contradicted",
+            ("C10 C11", "literal"): "undecided",
+            ("C20", "intended"): "contradicted",
+            ("C27", "literal"): "undecided",
+        }
+    )
+    assert (
+        "Fig. 1: differs. “The front p0(t) falls logarithmically” is contradicted (second: 0.2500(20); accepted: 1 to 2)."
+        in page
+    )
+    assert "Undecided: “The number of particles n(t) grows as log t”." in page
+    assert (
+        "Fig. 2: reproduced, but not literally. “Particles and scatterers of a cell have the same temperature” is"
+        in page
+    )
+    assert "but reproduced as “The chain is locally near equilibrium”." in page
+    assert (
+        "Fig. 3: reproduced. Fig. 4: reproduced. Fig. 5: reproduced. Fig. 6: reproduced. Fig. 7: differs. For σ ≠ 0"
+        in page
+    )
+    assert (
+        "Fig. 8: reproduced. Fig. 9: reproduced. Fig. 10: partly undecided: “At γ = N the peaks are damped as t−2/3”. Of"
+        in page
+    )
+    literal, intended = (sum(kind == one for _, kind in ROWS) for one in ("literal", "intended"))
+    assert (
+        f"Of {literal} statements of the paper, taken literally, {literal - 5} are reproduced, 2 are contradicted, 3 are undecided."
+        in page
+    )
+    assert (
+        f"{intended} intended meanings that differ from the wording, {intended - 1} are reproduced, 1 is contradicted, 0 are undecided."
+        in page
+    )
+    answer, _, _ = page.partition("Figures of the paper")
+    assert not re.findall(
+        r"\bC\d\d\b", answer.partition(" Claims ")[0]
+    )  # no numbers of claims before their table
+
+
 def test_an_undecided_answer_says_so() -> None:
-    data = Data("smoke", ROOT)
+    data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged("undecided"), data, release=True).decode()
-    assert page.count("Undecided at quality smoke: ") == 4
+    assert page.count("” is undecided at quality smoke") == 2
+    assert page.count('<span class="undecided">undecided</span>: “') == 10
     assert "at quality paper:" not in page
+
+
+def test_pictures_have_one_scale_and_narrow_ones_share_a_row() -> None:
+    """Detected mistakes: panels beyond the paper share a row with those of the paper, in other sections; the
+    second of three narrow panels has a row of its own."""
+    assert inches(b'<svg width="244.8pt" height="489.6pt" viewBox="0 0 1 1">') == pytest.approx((3.4, 6.8))
+    with pytest.raises(FormatError, match="states no size"):
+        inches(b'<svg width="100%">')
+    sizes = ["narrow", "narrow", "narrow", "wide", "narrow", "medium", "narrow", "narrow"]
+    panels = [{"size": size, "beyond": k == 7} for k, size in enumerate(sizes)]
+    alone = [k for k, panel in enumerate(in_rows(panels)) if "alone" in panel["size"]]
+    assert alone == [2, 4, 6, 7]
 
 
 def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> None:
@@ -90,11 +166,15 @@ def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> N
     here have it, too."""
     (tmp_path / GALLERY).mkdir(parents=True)
     (tmp_path / GALLERY / "numbers.csv").write_bytes(numbers_file(judged("contradicted")))
-    data = Data("smoke", tmp_path)
+    data = Planned("smoke", tmp_path)
     data.plan = {}
     page = rendered(judged("undecided"), data, release=False).decode()
-    assert page.count("At quality paper: contradicted, 0.2500(20) to 0.5000(10).") == 4
-    assert page.count("(at quality paper: contradicted)") == len(read_claims(ROOT))
+    assert page.count("(at quality paper: contradicted, 0.2500(20) to 0.5000(10)).") == 2
+    meant = {claim for claim, _ in ROWS} - {
+        "C22",
+        "C38",
+    }  # in the lines of the figures; those two have their own
+    assert page.count("(at quality paper: contradicted)") == len(ROWS) + len(meant)
     assert "at quality paper:" not in rendered(judged("reproduced"), data, release=False).decode()
 
 

@@ -9,14 +9,12 @@ import pytest
 from PIL import Image
 
 from tests.python.conftest import ROOT
-from workflow.claims import data as claims_data
-from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
 from workflow.lib.job import Job
 from workflow.lib.save import reduced
 from workflow.pipeline.plan import RELEASE as QUALITY
 from workflow.pipeline.plan import Run, load_plan, with_used
-from workflow.report import write
+from workflow.report import planned, write
 
 GALLERY = ROOT / "docs/gallery"
 
@@ -52,10 +50,10 @@ def test_gallery_is_rendered_from_the_results_of_the_release(
     ]
     command = [sys.executable, "-P", "-m", "workflow.lib.render"]
     subprocess.run([*command, *(job.json for job in jobs)], cwd=ROOT, check=True)
-    monkeypatch.setattr(claims_data, "data_path", released)
+    monkeypatch.setattr(planned, "data_path", released)
     monkeypatch.setattr(write, "record_of", lambda _plan, name, _quality: next(folder.glob(f"{name}.*.json")))
     monkeypatch.setattr(write, "stem_of", lambda name, _quality: folder / name)
-    data = Data(QUALITY, ROOT)
+    data = planned.Planned(QUALITY, ROOT)
     judgements = judge_all(data)
     assert write.numbers_file(judgements) == (GALLERY / "numbers.csv").read_bytes()
     assert write.rendered(judgements, data, release=True) == (GALLERY / "README.md").read_bytes()

@@ -214,7 +214,7 @@ def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -
     assert printed.startswith(
         "unmodified, fresh\npanel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n"
     )
-    assert load(copy).provenance["words"] in printed
+    assert load(copy).provenance["option_words"] in printed
     substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
     assert provenance(project, copy).startswith("unmodified, stale: sources of persistence")
     edit_value(project)

@@ -16,7 +16,7 @@ from workflow.physics.closed import persistence_law
 def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
     """One number per run. Labels have the name, the mass ratio and, if they differ between runs, particles
     per cell and relaxation time."""
-    symbols = {"particles-per-cell": "n", "relaxation-time": "t_r"}
+    symbols = {"particles_per_cell": "n", "relaxation_time": "t_r"}
     differing = [key for key in symbols if len({result.parameters[key] for result in results}) > 1]
     numbers = []
     for result in results:

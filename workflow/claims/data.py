@@ -1,14 +1,13 @@
-"""Data of the claims: the results of a quality, and numbers taken from them."""
+"""Data of the claims: results by panel, and numbers taken from them."""
 
-from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.fit import PowerLaw, fit_power, local_exponents
-from workflow.lib.load import Index, Result, load
-from workflow.pipeline.plan import Run, data_path, load_plan
+from workflow.lib.load import Index, Result
 
 
 class MissingError(LookupError):
@@ -16,47 +15,36 @@ class MissingError(LookupError):
 
 
 class Data:
-    """The results at one quality. Each file is loaded once for all claims."""
+    """Results by panel, as a script gets them; `Planned` loads them by the plan."""
 
-    def __init__(self, quality: str, root: Path) -> None:
-        self.quality, self.root = quality, root
-        self.plan = load_plan(quality)
-        self.loaded: dict[str, Result] = {}  # loaded results by path
+    def __init__(self, results: Iterable[Result] = ()) -> None:
+        self.by_panel: dict[str, list[Result]] = defaultdict(list)
+        for result in results:
+            self.by_panel[result.path.parent.name].append(result)
 
     def results(self, panel: str, *series: str, **parameters: object) -> list[Result]:
-        """The results of series of a panel with these parameters (underscores for dashes). Other series,
-        as those of the user, do not count. Raises MissingError if there are none, FormatError, OSError."""
-        wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
-        results = []
-        for run in (run for run in self._runs(panel) if run.series in series):
-            if all(run.options.get(key, value) == value for key, value in wanted.items()):
-                results.append(self._load(panel, run))
+        """The results of series of a panel with these parameters. Other series, as those of the user, do not
+        count. Raises MissingError if there are none, FormatError, OSError."""
         found = [
             result
-            for result in results
-            if all(result.parameters.get(key) == value for key, value in wanted.items())
+            for result in self.candidates(panel, series, parameters)
+            if all(result.parameters.get(key) == value for key, value in parameters.items())
         ]
         if not found:
-            raise MissingError(f"no {' or '.join(series)} of {panel} with {wanted} at quality {self.quality}")
+            raise MissingError(f"no {' or '.join(series)} of {panel} with {parameters}")
         return found
+
+    def candidates(self, panel: str, series: Sequence[str], wanted: Mapping[str, object]) -> list[Result]:
+        """All results of series of a panel whose parameters may have the wanted values. Raises
+        MissingError, FormatError, OSError."""
+        return [result for result in self.by_panel[panel] if result.series in series]
 
     def one(self, panel: str, run: str) -> Result:
         """The result of a run of the panel, by its name. Raises MissingError, FormatError, OSError."""
-        for planned in self._runs(panel):
-            if planned.name == run:
-                return self._load(panel, planned)
-        raise MissingError(f"{panel} has no run {run} at quality {self.quality}")
-
-    def _runs(self, panel: str) -> tuple[Run, ...]:
-        return self.plan[panel].runs if panel in self.plan else ()
-
-    def _load(self, panel: str, run: Run) -> Result:
-        path = data_path(self.quality, panel, run)
-        if not (self.root / path).exists():
-            raise MissingError(f"{path} is missing")
-        if path not in self.loaded:
-            self.loaded[path] = load(self.root / path)
-        return self.loaded[path]
+        for result in self.by_panel[panel]:
+            if result.run == run:
+                return result
+        raise MissingError(f"{panel} has no run {run}")
 
 
 Claim = Callable[[Data], list[Estimate]]

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 
@@ -18,18 +17,15 @@ from workflow.claims.data import (
 from workflow.claims.verdict import Estimate
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.physics import run_parameters
 from workflow.physics.rings import chain
 
-T = TypeVar("T")
 
-BULK = 16  # cells; shorter chains are dominated by their ends
-LARGE = 16  # the largest sizes are those within this factor of the largest
+LARGE = 4  # the largest sizes are those within this factor of the largest: two octaves
 LONG = 128  # cells; in shorter chains the exponents over the largest sizes still change
 LATE = 64  # time in λ/√T from which the exponents of rings are judged: earlier ones still fall
-DISTURBED = 0.1  # fraction of the collisions that are replaced by a pass or followed by a reversal
+DISTURBED = 0.1  # fraction of the collisions that are followed by a rotation or by a reversal
 # Series: of fig. 8 by γ, and rings with the paper's rule.
-SIZES: dict[str | int, tuple[str, ...]] = {"N": ("every", "every-large"), 1: ("rare", "rare-small")}
+SIZES: dict[str | int, tuple[str, ...]] = {"N": ("deterministic", "deterministic-large"), 1: ("rare", "rare-small")}
 ELASTIC = ("light", "light-long", "light-longest", "dense-longest", "dilute-longest", "sparse-longest")
 
 
@@ -65,24 +61,9 @@ def exponent(runs: Sequence[Result], name: str) -> Estimate:
     return power(cells, [estimate(run, "kappa") for run in runs], f"{name}, N = {cells[0]} to {cells[-1]}")
 
 
-def smaller_and_larger(by_size: Sequence[T]) -> list[Sequence[T]]:
-    """The smaller and the larger sizes, with the middle one in both. A power law has the same exponent in
-    both halves."""
-    middle = len(by_size) // 2
-    return [part for part in (by_size[: middle + 1], by_size[middle:]) if len(part) > 1]
-
-
 def cube_root(data: Data) -> list[Estimate]:
-    """Exponents of kappa over the smaller and over the larger half of fig. 8's sizes at gamma = N, which
-    agree for a power law."""
-    parts = smaller_and_larger(_with_bulk(sizes(data, "N")))
-    if not parts:
-        raise MissingError("fewer than two stationary sizes")
-    return [exponent(part, "d ln κ/d ln N, γ = N") for part in parts]
-
-
-def _with_bulk(runs: Sequence[Result]) -> list[Result]:
-    return [run for run in runs if run.parameters["cells"] >= BULK]
+    """Exponent of kappa at gamma = N over the largest sizes."""
+    return [of_largest(data, "N")]
 
 
 def superdiffusive(data: Data) -> list[Estimate]:
@@ -99,41 +80,37 @@ def superdiffusive(data: Data) -> list[Estimate]:
 
 
 def without_momentum(data: Data) -> list[Estimate]:
-    """Local exponent of kappa where a particle passes a scatterer with the probability DISTURBED, which
-    conserves momentum, minus that where this fraction of the collisions reverses the scatterer, which does
-    not: of chains between the two largest sizes that both have, and beta - 1 of rings over the last octave
-    that both have."""
-    passing, reversed_ = (
+    """Local exponent of kappa where a fraction DISTURBED of the collisions is followed by a rotation, which
+    conserves momentum, minus that where as many reverse the scatterer, which does not: of chains between the
+    two largest sizes that both have, and beta - 1 of rings over the last octave that both have."""
+    rotated, reversed_ = (
         {chain.parameters["cells"]: chain for chain in _stationary(chains)}
-        for chains in _disturbed(data, "chain-passing", "chain-reversal")
+        for chains in _disturbed(data, "chain-rotation", "chain-reversal")
     )
-    common = sorted(passing.keys() & reversed_.keys())[-2:]
+    common = sorted(rotated.keys() & reversed_.keys())[-2:]
     of_chains = [
-        exponent([chains[size] for size in common], "d ln κ/d ln N") for chains in (passing, reversed_)
+        exponent([chains[size] for size in common], "d ln κ/d ln N") for chains in (rotated, reversed_)
     ]
-    rings = [max(runs, key=_last_time) for runs in _disturbed(data, "passing", "reversal")]
+    rings = [max(runs, key=_last_time) for runs in _disturbed(data, "rotation", "reversal")]
     octaves = set.intersection(*(set(_middles(ring)) for ring in rings))
     if not octaves:
-        raise MissingError("the rings with passing and with reversal have no octave in common")
+        raise MissingError("the rings with rotation and with reversal have no octave in common")
     time = max(octaves)
     of_rings = [estimate(ring, "local_exponent", _middles(ring).index(time)) for ring in rings]
-    label = "passing minus reversal,"
+    label = "rotation minus reversal,"
     return [
         combination(of_chains, [1, -1], f"{label} {of_chains[0].label}"),
         combination(of_rings, [1, -1], f"{label} β, t = {time:.0f}"),
     ]
 
 
-def _disturbed(data: Data, passing: str, reversal: str) -> tuple[list[Result], list[Result]]:
-    """Runs of both series in which DISTURBED is the probability of the disturbance. Raises MissingError
+def _disturbed(data: Data, rotation: str, reversal: str) -> tuple[list[Result], list[Result]]:
+    """Runs of both series in which a fraction DISTURBED of the collisions is disturbed. Raises MissingError
     without one."""
-    runs = (
-        [run for run in data.results("momentum", passing) if run_parameters.passing(run) == DISTURBED],
+    return (
+        data.results("momentum", rotation, rotation_probability=DISTURBED),
         data.results("momentum", reversal, reversal_probability=DISTURBED),
     )
-    if not runs[0]:
-        raise MissingError(f"no run of {passing} in which a fraction of {DISTURBED:g} passes")
-    return runs
 
 
 def _middles(ring: Result) -> list[float]:

@@ -1,4 +1,4 @@
-"""Judges every row of data/claims.csv by the results at one quality.
+"""Judges every row of data/claims.csv by results.
 
 A row is one statement of the paper in one meaning: literal as printed, or intended if that is another one.
 """
@@ -12,10 +12,23 @@ import pandas as pd
 from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.claims.data import Claim, Data, MissingError
 from workflow.claims.verdict import Band, Outcome, Verdict, level_of_each
-from workflow.pipeline.configuration import ConfigurationError
+from workflow.lib.identity import ROOT
+from workflow.lib.load import FormatError
 
 CLAIMS_FILE = "data/claims.csv"
-COLUMNS = ["numbers", "kind", "place", "statement", "panel", "function", "band", "criterion", "caveat"]
+COLUMNS = [
+    "numbers",
+    "kind",
+    "place",
+    "statement",
+    "short",
+    "panel",
+    "function",
+    "band",
+    "criterion",
+    "caveat",
+]
+MOST_LETTERS = 60  # of a statement in the picture of the verdicts: `short`, or `statement` without one
 KINDS = ("literal", "intended")
 MODULES = {
     module.__name__.rpartition(".")[2]: module
@@ -39,8 +52,13 @@ def function_of(row: Mapping[str, str]) -> Claim:
     return function
 
 
+def short(row: Mapping[str, str]) -> str:
+    """The statement in at most MOST_LETTERS letters."""
+    return row["short"] or row["statement"]
+
+
 def read_claims(root: Path) -> list[dict[str, str]]:
-    """Rows of the table of claims. Raises ConfigurationError, OSError."""
+    """Rows of the table of claims. Raises FormatError, OSError."""
     try:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
@@ -49,14 +67,18 @@ def read_claims(root: Path) -> list[dict[str, str]]:
             function_of(row)
             if row["kind"] not in KINDS:
                 raise ValueError(f"{row['kind']} is not a kind: write {' or '.join(KINDS)}")
+            if len(short(row)) > MOST_LETTERS:
+                raise ValueError(
+                    f"'{short(row)}' has more than {MOST_LETTERS} letters: write it shorter in `short`"
+                )
     except (ValueError, KeyError, AttributeError) as error:  # errors of pandas are ValueErrors
-        raise ConfigurationError(f"{CLAIMS_FILE}: {error}") from error
+        raise FormatError(f"{CLAIMS_FILE}: {error}") from error
     return rows
 
 
-def judge_all(data: Data) -> list[Judgement]:
-    """Raises ConfigurationError, FormatError if a result was modified, OSError."""
-    rows = read_claims(data.root)
+def judge_all(data: Data, root: Path = ROOT) -> list[Judgement]:
+    """Raises FormatError, also if a result was modified, OSError."""
+    rows = read_claims(root)
     return [judge(row, data, level_of_each(len(rows))) for row in rows]
 
 

@@ -1,5 +1,8 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
+Where the chain is stationary above the front, curves of all times coincide, and those of some times are
+plotted. The table has all.
+
 Shown for several distances between scatterers, as the paper states none. Below, the same on logarithmic bins,
 with the fronts p_0(t), and the fronts over lambda/et, where a stationary flux has them.
 """
@@ -21,6 +24,7 @@ from workflow.physics import run_parameters
 TITLE = "Momentum distribution of the particles in a filling chain"
 UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
 
+SURE = 3  # standard errors above which heights at two times differ
 FRONT = style.points("o", style.BLACK, "white")
 
 
@@ -41,10 +45,17 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def plot_times(axes: Axes, table: pd.DataFrame) -> None:
-    """One curve with its error band per time."""
-    curves = zip(table.groupby("time"), cycle(style.SEQUENCE), cycle(style.DASHES), strict=False)
-    for (time, part), color, dashes in curves:
+def stationary(result: Result) -> bool:
+    """Whether the heights above the front at the first and at the last time agree."""
+    height = result["plateau"]
+    change = height.mean[-1] - height.mean[0]
+    return bool(abs(change) < SURE * np.hypot(height.error[0], height.error[-1]))
+
+
+def plot_times(axes: Axes, table: pd.DataFrame, shown: Sequence[float]) -> None:
+    """One curve with its error band for each of the times `shown`, in a colour that depends on the time."""
+    looks = zip(table.groupby("time"), cycle(style.SEQUENCE), cycle(style.DASHES), strict=False)
+    for (time, part), color, dashes in (look for look in looks if look[0][0] in shown):
         label = f"$t = {time:g}$"
         axes.plot(part.momentum, part.weighted_density, color=color, linestyle=dashes, label=label)
         style.band(axes, part.momentum, part.weighted_density, part.error, color)
@@ -53,19 +64,20 @@ def plot_times(axes: Axes, table: pd.DataFrame) -> None:
 
 def number_bins(axes: Axes, result: Result) -> None:
     """Adds an upper axis with the numbers of the bins, the abscissa of the paper."""
-    low = float(result.parameters["momentum-max"])
-    width = 2 * low / int(result.parameters["momentum-bins"])
+    low = float(result.parameters["momentum_max"])
+    width = 2 * low / int(result.parameters["momentum_bins"])
     scales = (lambda p: (p + low) / width, lambda k: k * width - low)
     axes.tick_params(axis="x", which="both", top=False)
     axes.secondary_xaxis("top", functions=scales).set_xlabel("bin number")
 
 
 def caption(results: Sequence[Result]) -> str:
-    chain = results[0]
+    chain, coincide = results[0], [*map(stationary, results)]
+    fewer = " Coinciding curves are left out." if any(coincide) else ""
     first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
         The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). At λ =
-        {run_parameters.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there), rows show the paper's bins, bins of ln|p|, and p_0 over λ/et. {ERRORS}"""
+        {run_parameters.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there). (e), (f) Dashed: stationary flux, λ/(e t).{fewer} {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")
@@ -77,8 +89,10 @@ def draw(results: Sequence[Result]) -> Parts:
     )
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
-        plot_times(above, table[table.bins == "momentum"])
-        plot_times(middle, table[table.bins == "speed"])
+        times = [*map(float, result["plateau"].axes["time"])]
+        few = stationary(result)
+        plot_times(above, table[table.bins == "momentum"], times[-1:] if few else times)
+        plot_times(middle, table[table.bins == "speed"], times[:: max(1, len(times) // 2)] if few else times)
         front = table.drop_duplicates("time")
         expected = front.cell_length / (np.e * front.time)
         middle.errorbar(front.front, front.plateau / np.e, xerr=front.front_error, **FRONT, label="$p_0(t)$")
@@ -94,7 +108,10 @@ def draw(results: Sequence[Result]) -> Parts:
         below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/\mathrm{e}t)$", ylim=(0, top))
     style.letter(*rows[0], lift=26)
     style.letter(*rows[1:].flat, first=len(results))
-    figure.legend(
-        *rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3 * len(results) // 2
-    )
+    curves = {
+        label: handle
+        for axes in reversed(rows[1])  # later spacings have the curves of all times
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(curves.values(), curves, loc="outside upper center", ncols=3 * len(results) // 2)
     return figure, pd.concat(tables), caption(results)

@@ -31,12 +31,12 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(results: Sequence[Result]) -> str:
     excess = listed(
-        f"{style.format_quantity(result['density_excess'], 0, 100)} % at γ = {run_parameters.gamma(result)}"
+        f"{listed(style.format_quantity(result['density_excess'], end, 100) for end in (0, 1))} % at γ = {run_parameters.gamma(result)}"
         for result in results
     )
     return f"""
-        The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell-length")}, {baths(results[0])}). Here the first
-        cell exceeds a line, fitted in the shaded half, by {excess}. (a) The density grows with time, as slow particles accumulate. (b)
+        The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell_length")}, {baths(results[0])}). Here first
+        and last cell exceed a line through the shaded half by {excess}. (a) Slow particles accumulate with time. (b)
         Density divided by the lines. {ERRORS}"""
 
 

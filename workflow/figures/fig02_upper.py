@@ -44,7 +44,7 @@ def caption(results: Sequence[Result]) -> str:
         format_with_error(abs(far.particle_minus_scatterer), far.particle_minus_scatterer_error),
     )
     return f"""
-        The paper finds that the temperatures of scatterers and particles coincide and do not reach the baths ({parameters(results, "cells", "cell-length", "sigma")},
+        The paper finds that the temperatures of scatterers and particles coincide and do not reach the baths ({parameters(results, "cells", "cell_length", "sigma")},
         {baths(results[0])}). Here the first scatterer has {first}, next to T_L = {format_number(results[0].ends("temperature")[0])}.
         (a) E_K is T/2. (b) Particles and scatterers differ most at γ = {gamma}, by {farthest}. {ERRORS}"""
 

@@ -158,7 +158,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     still = main[main.nu_left == main.nu_right]
     equal = f", and {jumps_of(still)} at equal rates" if len(still) else ""
     return f"""
-        The paper plots the flux F_N(p, x) behind both end scatterers and finds {claim} ({parameters([chain], "cells", "cell-length", "sigma")}, {baths(chain)}).
+        The paper plots the flux F_N(p, x) behind both end scatterers and finds {claim} ({parameters([chain], "cells", "cell_length", "sigma")}, {baths(chain)}).
         (a) to (c) F_N differs from the kinetic equation (black){neglected} by at most {math.ceil(10 * far) / 10:g} % of max F. (d) The jumps are
         {jumps_of(unequal)}{equal}. {ERRORS}"""
 

@@ -44,7 +44,7 @@ def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> n
 def cut(result: Result) -> float:
     """Time from which on the tail is fitted."""
     options = result.parameters
-    return float(options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"]))
+    return float(options["tail_from"] * options["cell_length"] / np.sqrt(options["temperature"]))
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -54,7 +54,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     sigma, tau = float(options["sigma"]), density.axes["tau"]
     table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
     if sigma == 0:
-        table["gaussian_start"] = gaussian_start(tau, options["temperature"], options["cell-length"])
+        table["gaussian_start"] = gaussian_start(tau, options["temperature"], options["cell_length"])
     table = table[table.density > 0].assign(unsure=lambda rows: ~(rows.density_error < UNSURE * rows.density))
     tail = table[table.tau > cut(result)]
     tail = tail[tail.unsure.all() | ~tail.unsure]
@@ -98,7 +98,7 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     weight = tail.tau * exact
     mean = np.average(tail.density / exact, weights=weight)
     error = np.hypot.reduce(tail.tau * tail.density_error) / weight.sum()
-    expected = 50 * np.pi / int(result.parameters["particles-per-cell"])
+    expected = 50 * np.pi / int(result.parameters["particles_per_cell"])
     excess = format_with_error(100 * (mean - 1), 100 * error)
     return (
         f" At σ = 0 its tail is {excess} % above n → ∞; momenta held by scatterers explain {expected:.2g} %."
@@ -111,10 +111,10 @@ def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFr
     exponents = listed(style.format_quantity(result["exponent"]) for result in results)
     pairs = zip(results, tables, strict=True)
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
-    younger = format_number(results[0].parameters["relaxation-time"] / young.parameters["relaxation-time"])
+    younger = format_number(results[0].parameters["relaxation_time"] / young.parameters["relaxation_time"])
     return f"""
-        The paper plots the density Ψ(τ) of waiting times and finds exponents {powers} ({parameters(results, "gamma", "particles-per-cell")}). Here
-        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} {ERRORS}"""
+        The paper gives the density Ψ(τ) of waiting times exponents {powers} ({parameters(results, "gamma", "particles_per_cell")}). Here
+        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
 
 
 @plots("all young")

@@ -32,7 +32,7 @@ RANDOM = [
 
 
 def zero(result: Result) -> bool:
-    return bool(result.parameters["zero-total-momentum"])
+    return bool(result.parameters["zero_total_momentum"])
 
 
 def cells(result: Result) -> int:
@@ -42,8 +42,8 @@ def cells(result: Result) -> int:
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the fraction neglects the correlation of drift and variance: it is an
     upper bound."""
-    variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
-    columns = result.columns("variance", "centre_of_mass")
+    variance, drift, slope = result["variance"], result["centre_of_mass_variance"], result["local_slope"]
+    columns = result.columns("variance", "centre_of_mass_variance")
     run = {"cells": cells(result), "zero_total_momentum": zero(result)}
     table = pd.DataFrame({"time": variance.axes["time"], **run, **columns})
     table["fraction"] = drift.mean / variance.mean
@@ -71,7 +71,7 @@ def draw(results: Sequence[Result]) -> Parts:
     random = tables[0]
     time = random.time
     last = float(time.iloc[-1])
-    window = (last / 10 ** results[0].parameters["fit-decades"], last)
+    window = (last / 10 ** results[0].parameters["fit_decades"], last)
     figure, (above, below) = style.stacked(2, 1, height=1.8)
     shapes = cycle(RANDOM)
     for result, table in zip(results, tables, strict=True):
@@ -83,8 +83,8 @@ def draw(results: Sequence[Result]) -> Parts:
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
-            above.plot(table.time, table.centre_of_mass, color=look["color"], zorder=0)
-            style.band(above, table.time, table.centre_of_mass, table.centre_of_mass_error, look["color"])
+            above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=0)
+            style.band(above, table.time, table.centre_of_mass_variance, table.centre_of_mass_variance_error, look["color"])
     above.plot([], [], color="grey", label="centre of mass")
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):

@@ -30,7 +30,7 @@ LOOKS = {
 def kind(result: Result) -> str:
     if rule(result) != "elastic":
         return rule(result)
-    return ZERO if result.parameters["zero-total-momentum"] else PAPER
+    return ZERO if result.parameters["zero_total_momentum"] else PAPER
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -39,7 +39,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         {
             "sigma": float(result.parameters["sigma"]),
             "kind": kind(result),
-            "relaxation_time": float(result.parameters["relaxation-time"]),
+            "relaxation_time": float(result.parameters["relaxation_time"]),
             **result.columns("alpha"),
             "converged": result.converged,
         }
@@ -75,7 +75,7 @@ def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
         alpha = format_with_error(*exchanged[["alpha", "alpha_error"]].iloc[-1])
         exchange = f"At σ = 0 momenta are only exchanged, waits follow τ⁻³, and without drift α is {alpha}, tending to 1 slowly."
     return f"""
-        The paper plots α of ⟨x²⟩ ∼ t^α and finds 1 < α < 2 for σ ≠ 0 ({parameters(results, "gamma", "particles-per-cell")}). (a) Here it is at least
+        The paper plots α of ⟨x²⟩ ∼ t^α and finds 1 < α < 2 for σ ≠ 0 ({parameters(results, "gamma", "particles_per_cell")}). (a) Here it is at least
         {extreme(kinds[PAPER], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""
 
 

@@ -61,7 +61,7 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     guide = BELOW * (part.kappa / power).min() * power
     axes.plot(part.cells, guide, **style.GUIDE)
     end = (part.cells.iloc[-1], guide.iloc[-1])
-    axes.annotate(name, end, (4, 0), textcoords="offset points", size=8, va="center")
+    axes.annotate(name, end, (4, 0), textcoords="offset points", size=style.label_size(), va="center")
 
 
 def ends(table: pd.DataFrame, gamma: str) -> str:
@@ -80,7 +80,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         line shows the mean field. {ERRORS}"""
 
 
-@plots("every every-large rare rare-small mean-field")
+@plots("deterministic deterministic-large rare rare-small mean-field")
 def draw(results: Sequence[Result]) -> Parts:
     shown = [result for result in results if result.provenance["program"] == "conductivity"]
     table = tabulate(shown)

@@ -33,9 +33,9 @@ def sound_speed(rest: Result) -> float:
     """Speed of sound [eq. 56] in cells per time, at gamma = N, in the ring from rest without the pulse: at
     the temperature and with the slow particles of eqs. 13 and 14 at the end of its relaxation."""
     options = rest.parameters
-    particles, length = float(options["particles-per-cell"]), float(options["cell-length"])
+    particles, length = float(options["particles_per_cell"]), float(options["cell_length"])
     before = 2 * float(options["energy"])  # temperature of the particles at the start
-    (temperature,), (slow,) = quasi_stationary(particles, before, length, options["relaxation-time"])
+    (temperature,), (slow,) = quasi_stationary(particles, before, length, options["relaxation_time"])
     return Chain(particles / (2 * slow), run_parameters.mass(rest), temperature, length).sound_speed_in_cells
 
 
@@ -71,15 +71,20 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
 
 
 def motion(result: Result) -> str:
-    """Verb phrase on the speed of the peak: its change if that is significant, else its mean over time.
-    Speeds and positions of a run are correlated: errors of differences are at most the sum of both."""
+    """Verb phrase on the speed of the peak: its mean over time if first and last value do not differ
+    significantly, else both, and the extreme one between them. Speeds and positions of a run are correlated:
+    errors of differences are at most the sum of both."""
     speed, where = result["peak_speed"], result["peak_position"]
     known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
     if not len(known):
         return "is not resolved"
     first, last = known[[0, -1]]
-    if abs(speed.mean[last] - speed.mean[first]) > SURE * (speed.error[first] + speed.error[last]):
-        return f"changes from {style.format_quantity(speed, first)} to {style.format_quantity(speed, last)}"
+    change = speed.mean[last] - speed.mean[first]
+    if abs(change) > SURE * (speed.error[first] + speed.error[last]):
+        extreme = known[np.argmax(np.sign(change) * speed.mean[known])]
+        texts = [style.format_quantity(speed, index) for index in (first, extreme, last)]
+        between = f"{texts[1]} at t = {speed.axes['middle'][extreme]:.2g}, and is then "
+        return f"{'rises' if change > 0 else 'falls'} from {texts[0]} to {between * bool(extreme != last)}{texts[2]}"
     ends = [first, last + 1]  # between which the speeds are known
     time = np.ptp(where.axes["time"][ends])
     return (
@@ -93,13 +98,13 @@ def caption(results: Sequence[Result]) -> str:
     speed = motion(results[0])
     if results[0].parameters["gamma"] == "N":
         peaks, near = "two peaks of almost constant speed", ""
-        sound = " (d) The dashed line is sound in the ring from rest."
+        sound = " (d) Dashed: sound in the ring from rest."
     else:
         peaks, sound = "peaks of constant speed", " (d) Speeds refer to intervals."
         near = " In the dips, particles are missing."
     return f"""
-        The paper plots the effect ΔE(x, t) of an energy pulse and finds {peaks} ({parameters(results, "cells", "sigma", "particles-per-cell")}).
-        Here, from rest, the speed in cells per time {speed}. (a), (b) Both starts are shown.{near}{faint} (c) Dashed lines continue the
+        The paper plots the effect ΔE(x, t) of an energy pulse and finds {peaks} ({parameters(results, "cells", "sigma", "particles_per_cell")}).
+        Here, from rest, the speed in cells per time {speed}.{near}{faint} (c) Dashed lines continue the
         first speed.{sound} {ERRORS}"""
 
 

@@ -80,7 +80,7 @@ def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame)
                 (seen.time.iloc[-1], law.iloc[-1]),
                 (2, 0),
                 textcoords="offset points",
-                size=8,
+                size=style.label_size(),
                 va="center",
             )
         style.guide_at(below, -slope, exponent)
@@ -113,7 +113,7 @@ def caption(results: Sequence[Result]) -> str:
         else ""
     )
     return f"""
-        The paper plots the height of the peak and reads {law} ({parameters([rest], "cells", "sigma", "particles-per-cell")}). Here the exponent from rest
+        The paper plots the height of the peak and reads {law} ({parameters([rest], "cells", "sigma", "particles_per_cell")}). Here the exponent from rest
         {exponents(rest)}{longer}. (a) Heights are those of smooth fits. (b) Exponents are those of octaves. {guides} {ERRORS}"""
 
 

@@ -9,20 +9,20 @@ from workflow.lib.load import NOT_STATIONARY, NOT_TESTED, Result
 
 SYMBOLS = {
     "cells": "N = {}",
-    "particles-per-cell": "n = {}",
-    "cell-length": "λ = {}",
+    "particles_per_cell": "n = {}",
+    "cell_length": "λ = {}",
     "sigma": "σ = {}",
     "gamma": "γ = {}",
     "temperature": "initial T = {}",
-    "nu-left": "ν_L = {}",
-    "nu-right": "ν_R = {}",
-    "temperature-left": "T_L = {}",
-    "temperature-right": "T_R = {}",
+    "nu_left": "ν_L = {}",
+    "nu_right": "ν_R = {}",
+    "temperature_left": "T_L = {}",
+    "temperature_right": "T_R = {}",
     "energy": "ε⁰ = {}",
-    "pulse-energy": "ε̃ = {}",
+    "pulse_energy": "ε̃ = {}",
 }
-GAS = ("particles-per-cell", "temperature")
-BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
+GAS = ("particles_per_cell", "temperature")
+BATHS = ("nu_left", "nu_right", "temperature_left", "temperature_right")
 PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
 RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
@@ -61,7 +61,7 @@ def parameters(results: Sequence[Result], *names: str) -> str:
         words = sorted(value for value in values if isinstance(value, str))
         if values:
             texts.append(
-                SYMBOLS.get(name, f"{name} = {{}}").format(listed([*map(format_number, numbers), *words]))
+                SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}").format(listed([*map(format_number, numbers), *words]))
             )
     return ", ".join(texts)
 
@@ -73,7 +73,7 @@ def rule(result: Result) -> str:
     own = [
         value
         for option, value in result.parameters.items()
-        if option.startswith(f"{name}-") and value != "none"
+        if option.startswith(f"{name}_") and value != "none"
     ]
     values = f" ({', '.join(map(format_number, own))})" if own else ""
     return RULE_PHRASES.get(name, name) + values

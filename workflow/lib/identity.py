@@ -12,6 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 DIGITS = 12  # 48 bits: two of a million names are equal with a probability of 0.2 %
 IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression of an identity
 FORMER = "build/records"  # folder of the records of former figures, of which there may be copies
+RELEASE = "paper"  # the quality of the release
+NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which other qualities state
 SHARED = ("workflow/lib", "workflow/physics", "uv.lock")  # on which all figures depend
 IDENTITY_LINE = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
 
@@ -38,8 +40,8 @@ def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) 
 
 
 def sources_of_panel(script: str, reads: Iterable[str] = ()) -> dict[str, str]:
-    """Hashes of the script of a panel, of lib and physics, of the locked packages, and of the files that
-    it reads. Raises OSError."""
+    """Hashes of the script of a panel, of lib and physics, of the locked packages, and of the files and
+    folders that it reads. Raises OSError."""
     return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED, *reads)}
 
 

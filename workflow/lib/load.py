@@ -19,7 +19,7 @@ from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 4
+FORMAT_VERSION = 5
 NOT_IN_DIGEST = {
     "digest",
     "CLASS",
@@ -52,7 +52,7 @@ class Quantity:
     """Estimate with errors over axes, which map names to coordinates in the order of the dimensions.
 
     A measured quantity has a standard error and a count of replicas, a computed one a discretisation error;
-    the others are None. control_variates: number of those fitted; 1 in files that state only whether they were.
+    the others are None. control_variates: number of those fitted.
     """
 
     mean: np.ndarray
@@ -125,7 +125,7 @@ class Result:
 
     def ends(self, name: str) -> tuple[float, float]:
         """A parameter of the left and of the right bath."""
-        return float(self.parameters[f"{name}-left"]), float(self.parameters[f"{name}-right"])
+        return float(self.parameters[f"{name}_left"]), float(self.parameters[f"{name}_right"])
 
     def columns(self, *names: str) -> dict[str, Any]:
         """Means and errors of quantities, as columns or numbers of a table: kappa and kappa_error."""
@@ -229,7 +229,7 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dic
                 raise FormatError(
                     f"format version {version}, not {FORMAT_VERSION}; remake it with make figures"
                 )
-            own = result_identity(*(provenance[name] for name in ("program", "words", "source_hash")))
+            own = result_identity(*(provenance[name] for name in ("program", "option_words", "source_hash")))
             if (named_identity(path) or own) != own:
                 raise FormatError(
                     f"it contains another result: other options or sources, copied or exchanged{REMEDY}"

@@ -16,7 +16,7 @@ LOOKS = {
 
 
 def start(result: Result) -> str | float:
-    return result.parameters["scatterer-temperature"]
+    return result.parameters["scatterer_temperature"]
 
 
 def look(result: Result) -> tuple[str, str, str, str]:

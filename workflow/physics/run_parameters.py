@@ -32,7 +32,7 @@ def epsilon(result: Result) -> float:
 
 def spacing(result: Result) -> tuple[float, str]:
     """Distance between scatterers as a number and as text."""
-    given = result.parameters["cell-length"]
+    given = result.parameters["cell_length"]
     if given == "1/N":
         return 1 / int(result.parameters["cells"]), "1/N"
     return float(given), f"{given:g}"

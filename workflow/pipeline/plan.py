@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.identity import (
+    NUMBERS,
+    RELEASE,
     ROOT,
     SHARED,
     content_hash,
@@ -38,8 +40,6 @@ FIGURES = "figures"
 KINDS = ("pdf", "png", "svg", "csv")  # files of a panel
 REPORT = "report"  # a product with a record, as a panel
 QUALITIES = ("smoke", "standard", "paper")
-RELEASE = "paper"  # its quality
-NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which reports of other qualities state
 REPORT_SOURCES = (
     "workflow/claims",
     "workflow/report",
@@ -82,7 +82,8 @@ class Run:
 @dataclass(frozen=True)
 class Panel:
     """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of
-    paper.yaml that the quality replaces, as `cells of rare`; reads: files that the script reads; beyond:
+    paper.yaml that the quality replaces, as `cells of rare`; reads: files and
+    folders that the script uses; beyond:
     not of the paper, and made for the report only."""
 
     name: str
@@ -175,8 +176,10 @@ def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "uses", number), text))
         for number, path in enumerate(panel.reads):
             inside = not Path(path).is_absolute() and ".." not in Path(path).parts
-            if not inside or not (ROOT / path).is_file():
-                text = f"{path} is not a file below {ROOT}, or not its path from there: write the file there"
+            if not inside or not (ROOT / path).exists():
+                text = (
+                    f"{path} is not a file or folder below {ROOT}, or not its path from there: write it there"
+                )
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "reads", number), text))
     return panels
 
@@ -222,8 +225,8 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
 def identity_of(plan: dict[str, Panel], name: str, quality: str) -> str:
     """Identity of a panel or of the report. Raises ConfigurationError, OSError."""
     if name == REPORT:
-        release = [] if quality == RELEASE else [NUMBERS]
-        paths = [path for path in (*REPORT_SOURCES, *release) if (ROOT / path).exists()]
+        paths = [path for path in REPORT_SOURCES if (ROOT / path).exists()]
+        paths += [NUMBERS] * states_release(quality)
         panels = [identity_of(plan, panel, quality) for panel in plan]
         return identity(panels, {path: content_hash(path) for path in paths})
     return panel_identity(name, data_of(plan, name, quality), sources_of(plan[name]))
@@ -237,6 +240,11 @@ def sources_of(panel: Panel) -> dict[str, str]:
         raise ConfigurationError(
             f"panel {panel.name} of paper.yaml has no script: write {error.filename}"
         ) from error
+
+
+def states_release(quality: str) -> bool:
+    """Whether figures and report of a quality also state the verdicts of the release."""
+    return quality != RELEASE and (ROOT / NUMBERS).exists()
 
 
 def stem_of(name: str, quality: str) -> str:
@@ -302,6 +310,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
             )
             runs.append(Run(run, program, completed, series))
     uses, reads = (tuple(panel.get(key, ())) for key in ("uses", "reads"))
+    reads = tuple(path for path in reads if path != NUMBERS or states_release(selection.name))
     beyond = panel.get("beyond", False)
     return Panel(name, panel.get("script", name), tuple(runs), uses, tuple(replaced), reads, beyond)
 

@@ -5,7 +5,9 @@ docs/gallery/README.md with pictures beside it and all numbers in numbers.csv. E
 import argparse
 import base64
 import json
+import re
 import sys
+from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,18 +15,15 @@ from typing import Any
 import jinja2
 import pandas as pd
 
-from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, changed, judge_all
 from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.columns import TableError, require_whole
 from workflow.lib.files import format_os_error, write_atomically
-from workflow.lib.identity import ROOT, statement
+from workflow.lib.identity import NUMBERS, RELEASE, ROOT, identity_line
 from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import commit, reduced, write_product
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import (
-    NUMBERS,
-    RELEASE,
     REPORT,
     Selection,
     identity_of,
@@ -33,13 +32,16 @@ from workflow.pipeline.plan import (
     stem_of,
 )
 from workflow.report import typeset
+from workflow.report.planned import Planned
 
 GALLERY = "docs/gallery"
 SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
-MOST_NUMBERS = 12  # numbers of a claim on the page; of more, only the one that is closest to the band's edge or farthest outside
+MOST_NUMBERS = 12  # numbers of a claim in the report; of more, only the one that is closest to the band's edge or farthest outside
+INCH = 96  # pixels, as in CSS: one scale for all pictures
+SINGLE, DOUBLE = 4, 7  # inches: widest picture beside which stands a caption in half a page, or in a page
 
 
-def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> bytes:
+def rendered(judgements: Sequence[Judgement], data: Planned, *, release: bool) -> bytes:
     """The page. release: the gallery's page, with pictures in files beside it. Raises OSError."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -52,9 +54,7 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
     environment.filters["typeset"] = typeset.typeset
     found = {} if release or data.quality == RELEASE else of_release(data.root)
     rows = [shown(judgement) for judgement in judgements]
-    outcomes = {(row["numbers"], row["kind"]): row["outcome"] for row in rows}
     for row in rows:
-        row["holds_as_intended"] = outcomes.get((row["numbers"], "intended")) == "reproduced"
         row["release"] = found.get((row["numbers"], row["kind"])) if row["outcome"] == "undecided" else None
     page = environment.get_template("page.html.j2").render(
         release=release,
@@ -63,21 +63,26 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
         kinds=KINDS,
         outcomes=[*Outcome],
         rows=rows,
+        figures=by_figure(rows),
         row={f"{row['numbers']} {row['kind']}": row for row in rows},
-        panels=[panel_of(data, name, release=release) for name in data.plan],
+        panels=in_rows([panel_of(data, name, release=release) for name in data.plan]),
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
     return page.encode()
 
 
-def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
+def panel_of(data: Planned, name: str, *, release: bool) -> dict[str, Any]:
     """A panel with its picture, and what it is made from, for the template. Raises OSError."""
     record = json.loads((data.root / record_of(data.plan, name, data.quality)).read_text("utf-8"))
-    picture = base64.b64encode((data.root / f"{stem_of(name, data.quality)}.svg").read_bytes()).decode()
+    content = (data.root / f"{stem_of(name, data.quality)}.svg").read_bytes()
+    picture, (width, height) = base64.b64encode(content).decode(), inches(content)
     runs = {} if release else runs_of(data.plan, [name], data.quality)
     return record | {
         "name": name,
         "beyond": data.plan[name].beyond,
+        "size": "narrow" if width <= SINGLE else "medium" if width <= DOUBLE else "wide",
+        "width": round(width * INCH),
+        "height": round(height * INCH),
         "address": f"{name}.png" if release else f"data:image/svg+xml;base64,{picture}",
         "runs": [
             (Path(path).parent.name, f"{run.program} {run.options_text}", cpu_seconds(data.root / path))
@@ -85,6 +90,63 @@ def panel_of(data: Data, name: str, *, release: bool) -> dict[str, Any]:
         ],
         "sources": [path for path in record["parents"] if not path.endswith(".h5")],
     }
+
+
+def inches(picture: bytes) -> tuple[float, float]:
+    """Width and height of an SVG, which states them in points."""
+    found = re.search(rb'width="([\d.]+)pt" height="([\d.]+)pt"', picture)
+    if not found:
+        raise FormatError(
+            "an SVG of the panels states no size in points: remove the figures and make them again"
+        )
+    return float(found[1]) / 72, float(found[2]) / 72
+
+
+def in_rows(panels: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The panels, of which narrow ones share a row with the next narrow one. One without a neighbour has a
+    row of its own."""
+    pending: dict[str, Any] | None = None
+    for panel in panels:
+        if panel["size"] == "narrow" and pending is None:
+            pending = panel
+            continue
+        if pending is not None and (panel["size"] != "narrow" or panel["beyond"] != pending["beyond"]):
+            pending["size"] = "narrow alone"
+            pending = panel if panel["size"] == "narrow" else None
+            continue
+        pending = None
+    if pending is not None:
+        pending["size"] = "narrow alone"
+    return [*panels]
+
+
+def by_figure(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The answer on every figure of the paper, with the rows that need an account. The outcome of a statement
+    is that of its intended meaning, where it has one."""
+    figures = defaultdict(list)
+    for row in rows:
+        if named := re.match(r"fig(\d+)", row["panel"]):
+            figures[int(named[1])].append(row)
+    answers = []
+    for number, own in sorted(figures.items()):
+        meant = {row["numbers"]: row for row in own}  # intended meanings come after literal statements
+        wrong = [row for row in meant.values() if row["outcome"] == Outcome.CONTRADICTED]
+        literal = [row for row in own if row["outcome"] == Outcome.CONTRADICTED and row not in wrong]
+        undecided = [row for row in meant.values() if row["outcome"] == Outcome.UNDECIDED]
+        if wrong:
+            outcome, answer = Outcome.CONTRADICTED, "differs"
+        elif not undecided:
+            outcome, answer = Outcome.REPRODUCED, "reproduced" + ", but not literally" * bool(literal)
+        else:
+            outcome = Outcome.UNDECIDED
+            answer = "undecided" if len(undecided) == len(meant) else "partly undecided"
+        for row in literal:
+            row["meant"] = (
+                meant[row["numbers"]] if meant[row["numbers"]]["outcome"] == Outcome.REPRODUCED else None
+            )
+        told = {"rows": wrong + literal, "undecided": undecided}
+        answers.append({"number": number, "outcome": outcome, "answer": answer} | told)
+    return answers
 
 
 def of_release(root: Path) -> dict[tuple[str, str], tuple[str, str]]:
@@ -118,10 +180,12 @@ def shown(judgement: Judgement) -> dict[str, Any]:
             (number.label, typeset.value(number), verdict.outcome_of(number).value) for number in listed
         ],
         "omitted": len(numbers) - len(listed),
+        "others": len(numbers) - 1,
         "outside": sum(verdict.outcome_of(number) is Outcome.CONTRADICTED for number in numbers),
         "least": typeset.value(numbers[0]) if numbers else "",
         "most": typeset.value(numbers[-1]) if numbers else "",
         "missing": judgement.missing,
+        "meant": None,
     }
 
 
@@ -148,11 +212,11 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
 
 def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     """Writes the report, or the gallery. Raises ConfigurationError, FormatError, OSError."""
-    data = Data(quality, root)
-    judgements = judge_all(data)
+    data = Planned(quality, root)
+    judgements = judge_all(data, root)
     if not gallery:
         name = identity_of(data.plan, REPORT, quality)
-        line = f"<!-- {statement(REPORT, quality, name)} -->\n".encode()
+        line = f"<!-- {identity_line(REPORT, quality, name)} -->\n".encode()
         page = rendered(judgements, data, release=False) + line
         parents = [record_of(data.plan, panel, quality) for panel in data.plan]
         record = {"quality": quality, "identity": name, "commit": commit(), "parents": parents}

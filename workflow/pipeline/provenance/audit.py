@@ -102,7 +102,7 @@ def changes(run: Run, sibling: Path) -> list[str]:
         former = load_provenance(sibling)
     except (FormatError, OSError) as error:
         return [str(error)]
-    was, now = options_of(former["words"]), options_of(run.options_text)
+    was, now = options_of(former["option_words"]), options_of(run.options_text)
     differing = [f"it has {option}" for option in was if option not in now]
     differing += [f"planned is {option}" for option in now if option not in was]
     if former["source_hash"] != source_hash(run.program):

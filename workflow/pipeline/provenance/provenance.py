@@ -28,7 +28,7 @@ def print_panel(panel: str, quality: str) -> None:
 def print_command(origin: dict[str, Any], where: str = "") -> None:
     """Command of the program of a result."""
     program = origin["program"]
-    print(f"{where}{program} {origin['words']}")
+    print(f"{where}{program} {origin['option_words']}")
     if origin["source_hash"] != source_hash(program):
         print(f"sources of {program} differ here")
 
@@ -44,7 +44,7 @@ def selections() -> list[str]:
 
 def explain_result(path: Path) -> int:
     origin = load_provenance(path)
-    program, words = origin["program"], origin["words"]
+    program, words = origin["program"], origin["option_words"]
     panels = []
     for quality in selections():
         plan = load_plan(quality)

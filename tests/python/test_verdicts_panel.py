@@ -1,0 +1,210 @@
+"""The picture of the verdicts: from judgements of known truth to the plotted positions and the table."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
+from scipy.stats import t as student
+
+from tests.python.claim_truths import CASES
+from tests.python.conftest import ROOT
+from tests.python.known_results import Known, truth
+from workflow.claims.data import Data
+from workflow.claims.judge import Judgement, function_of, read_claims
+from workflow.claims.verdict import Band, Estimate, Verdict
+from workflow.figures import verdicts
+from workflow.lib import style
+from workflow.lib.columns import as_csv
+from workflow.lib.identity import NUMBERS
+from workflow.pipeline.plan import load_plan
+
+LEVEL = 0.01
+HALF = student.isf(LEVEL / 2, 9)  # half of an interval over its standard error
+INF, NAN = math.inf, math.nan
+
+
+def number(value: float, error: float, systematic: float = 0.0) -> Estimate:
+    return Estimate(f"value {value:g}", value, error, 9, systematic)
+
+
+CLAIMS: dict[str, tuple[Band, Estimate, str]] = {
+    "inside": (Band(2, 4), number(3.5, 0.1, 0.05), "reproduced"),
+    "far below": (Band(0, 1), number(-7, 0.1), "contradicted"),
+    "just above": (Band(0, 1), number(1.5, 0.1), "contradicted"),
+    "straddling": (Band(0, 1), number(1.0, 0.1), "undecided"),
+    "above": (Band(0.5, INF), number(0.9, 0.01), "reproduced"),
+    "not above": (Band(0.5, INF), number(0.1, 0.01), "contradicted"),
+    "below": (Band(-INF, -0.5), number(-0.7, 0.01), "reproduced"),
+    "at the edge": (Band(-INF, 0), number(0, 0.1), "undecided"),
+    "unbounded": (Band(0, 1), number(0.5, 0.1, INF), "undecided"),
+    "unknown": (Band(0, 1), number(NAN, NAN), "undecided"),
+}
+# Position and half of the interval on the scale of the band.
+PLOTTED = {
+    "inside": (0.5, HALF * 0.1 + 0.05),
+    "far below": (-15, HALF * 0.2),
+    "just above": (2, HALF * 0.2),
+    "straddling": (1, HALF * 0.2),
+    "above": (0, HALF * 0.01 / 0.4),
+    "not above": (-2, HALF * 0.01 / 0.4),
+    "below": (0, HALF * 0.01 / 0.2),
+    "at the edge": (1, 1),
+    "unbounded": (0, INF),
+    "unknown": (NAN, NAN),
+}
+
+
+def row(claim: str, kind: str = "literal") -> dict[str, str]:
+    return {"numbers": claim, "kind": kind, "panel": "fig01", "statement": claim, "short": ""}
+
+
+JUDGED = [Judgement(row(name), Verdict(band, (one,), LEVEL)) for name, (band, one, _) in CLAIMS.items()]
+MISSING = Judgement(row("missing", "intended"), Verdict(Band(0, 1), (), LEVEL), "no run")
+
+
+@pytest.fixture(autouse=True)
+def close() -> Iterator[None]:
+    yield
+    plt.close("all")
+
+
+def plotted(table: pd.DataFrame) -> tuple[Axes, dict[int, list[Any]]]:
+    """The axes, and by row the lines in units of the scale: intervals of two points and symbols."""
+    figure, _, _ = verdicts.plotted(table)
+    (axes,) = figure.axes
+    by_row: dict[int, list[Any]] = {}
+    for line in axes.get_lines():
+        y = line.get_ydata()
+        if line.get_transform() == axes.transData and y[0] == round(y[0]):
+            by_row.setdefault(int(y[0]), []).append(line)
+    return axes, by_row
+
+
+def test_table_and_picture_have_the_numbers() -> None:
+    table = verdicts.tabulate([*JUDGED, MISSING], {})
+    axes, lines = plotted(table)
+    assert [*table.verdict] == [verdict for *_, verdict in CLAIMS.values()] + ["undecided"]
+    for y, (name, (band, one, verdict)) in enumerate(CLAIMS.items()):
+        position, half = PLOTTED[name]
+        numbers = [
+            position,
+            position - half,
+            position + half,
+            one.value,
+            one.error,
+            one.systematic,
+            band.low,
+            band.high,
+        ]
+        columns = [
+            "position",
+            "position_low",
+            "position_high",
+            "value",
+            "error",
+            "systematic",
+            "band_low",
+            "band_high",
+        ]
+        np.testing.assert_allclose(table.loc[y, columns].astype(float), numbers, rtol=1e-9, atol=1e-12)
+        *interval, symbol = lines[y]
+        low, high = (
+            edge if math.isnan(end) else min(max(end, -3.3), 3.3)
+            for end, edge in ((position - half, -3.3), (position + half, 3.3))
+        )
+        if low < high:
+            np.testing.assert_allclose(interval[0].get_xdata(), [low, high], rtol=1e-9, atol=1e-12)
+        else:
+            assert not interval  # beyond the frame: the arrow alone
+        np.testing.assert_allclose(symbol.get_xdata(), [max(position, -3)])  # NaN is not plotted
+        look = {"reproduced": ("o", style.BLUE), "contradicted": ("X", style.VERMILLION)}
+        marker, color = look.get(verdict, ("D", "0.45"))
+        assert symbol.get_marker() == ("<" if name == "far below" else marker)
+        assert to_hex(symbol.get_color()) == to_hex(color) == to_hex(symbol.get_markerfacecolor())
+    assert len(table) - 1 not in lines
+    assert [text.get_text() for text in axes.texts].count("not measured") == 1
+
+
+def test_bands_with_one_edge_are_open() -> None:
+    """Rectangles from the edge of the strip to that of the frame. Detected mistake: open to the other side."""
+    table = verdicts.tabulate(JUDGED, {})
+    axes, _ = plotted(table)
+    strip, *found = (
+        (*sorted((one.get_x(), one.get_x() + one.get_width())), one.get_y() + 0.5) for one in axes.patches
+    )
+    assert strip[:2] == (-1, 1)
+    names = [*CLAIMS]
+    right, left = (
+        [names.index(one) for one in ("above", "not above")],
+        [names.index(one) for one in ("below", "at the edge")],
+    )
+    assert found == [(1, 3.3, y) for y in right] + [(-3.3, -1, y) for y in left]
+
+
+def test_a_number_above_the_frame_is_an_arrow_to_the_right_and_intended_meanings_are_open() -> None:
+    far = Judgement(row("far", "intended"), Verdict(Band(0, 1), (number(9, 0.1),), LEVEL))
+    _, lines = plotted(verdicts.tabulate([far], {}))
+    (symbol,) = lines[0]
+    assert (symbol.get_marker(), *symbol.get_xdata()) == (">", 3)
+    assert symbol.get_markerfacecolor() == "white"
+
+
+def test_the_verdict_of_the_release_is_a_small_symbol() -> None:
+    release = {("inside", "literal"): "contradicted"}
+    table = verdicts.tabulate(JUDGED, release)
+    assert [*table.release] == ["contradicted"] + ["not measured"] * (len(JUDGED) - 1)
+    axes, _ = plotted(table)
+    outside = [line for line in axes.get_lines() if [*line.get_xdata()] == [1.03]]
+    (small,) = outside
+    assert (small.get_marker(), *small.get_ydata()) == ("X", 0)
+    assert "release" not in verdicts.tabulate(JUDGED, {})
+
+
+def test_rows_are_in_the_order_of_the_figures() -> None:
+    names = {
+        "title": "momentum",
+        "ten": "fig10a",
+        "two": "fig02_lower",
+        "one": "fig01_inset",
+        "later": "fig02_upper",
+    }
+    claims = [Judgement({**row(name), "panel": panel}, MISSING.verdict) for name, panel in names.items()]
+    assert [*verdicts.tabulate(claims, {}).claim] == ["one", "two", "later", "ten", "title"]
+
+
+def test_the_table_is_a_csv_and_statements_are_typeset() -> None:
+    table = verdicts.tabulate([*JUDGED, MISSING], {("inside", "literal"): "reproduced"})
+    assert '"position": "1"' in as_csv(table, verdicts.UNITS)
+    assert "3 reproduced, 3 contradicted, 5 undecided" in verdicts.caption(table)
+    assert len(verdicts.caption(table).split()) <= 70
+    for claim in read_claims(ROOT):
+        text = verdicts.typeset(claim["short"] or claim["statement"])
+        assert "^" not in text.replace("$^{", "")
+        assert "_" not in text.replace("$_{", "")
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_panel_has_the_results_of_all_claims(name: str) -> None:
+    """The numbers from the results of the panels in `uses` are those by the plan. Detected mistakes: `uses`
+    misses a panel, so that its claims are not measured; series of the user count."""
+    uses, case = load_plan("paper")["verdicts"].uses, CASES[name]
+    known = Known({panel: truth(given, case.errors) for panel, given in case.world.items()}, case.quality)
+    numbers = function_of({"function": name})(known)
+    results = [result for result in known.loaded.values() if result.path.parent.name in uses]
+    mine = [replace(one, path=one.path.with_name(f"mine_{one.path.name}")) for one in results]
+    assert repr(function_of({"function": name})(Data([*mine, *results]))) == repr(numbers)
+
+
+def test_only_other_qualities_depend_on_the_numbers_of_the_release() -> None:
+    """Detected mistake: the gallery, which writes the numbers, makes its own picture stale."""
+    assert NUMBERS not in load_plan("paper")["verdicts"].reads
+    assert NUMBERS in load_plan("standard")["verdicts"].reads
+    assert verdicts.of_release("paper") == {}
+    assert set(verdicts.of_release("standard").values()) <= {"reproduced", "contradicted", "undecided"}
