@@ -56,9 +56,12 @@ class Scale:
             return replace(quantity, **values, axes=axes)
 
         quantities = {name: scaled(quantity) for name, quantity in result.quantities.items()}
-        options = {name: type(value)(self.option(name, value)) for name, value in result.parameters.items()}
-        if options.get("cell-length") == "1/N":  # the chain has length 1 in the original units
-            options["cell-length"] = self.lengths / int(options["cells"])
+        options = {
+            name: type(value)(self.option(name.replace("_", "-"), value))
+            for name, value in result.parameters.items()
+        }
+        if options.get("cell_length") == "1/N":  # the chain has length 1 in the original units
+            options["cell_length"] = self.lengths / int(options["cells"])
         return replace(result, quantities=quantities, parameters=options)
 
 

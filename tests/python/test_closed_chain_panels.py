@@ -14,17 +14,24 @@ from workflow.lib.load import Result
 
 
 def test_fig05() -> None:
+    """In a ring of N = 11, n = 20 at T_0 = 400, particles and scatterers meet at T = 1200 [eq. 11], in which the
+    total momentum has the mean square nNT_0, or 0."""
+    sigma = np.array([-0.5, 0.5])
     runs = [
-        result(f"paper_sigma={sigma}", RING | {"sigma": sigma}, mu=np.arccos(sigma) / np.pi + 0.01, particle_energy=3.0, scatterer_energy=1.0)
-        for sigma in (-0.5, 0.5)
+        result(f"{series}_sigma={x}", RING | {"sigma": x, "cells": 11, "particles_per_cell": 20, "temperature": 400.0, "zero_total_momentum": series != "paper"},
+               mu=np.arccos(x) / np.pi + 0.01, particle_energy=500.0, scatterer_energy=700.0)
+        for series in ("paper", "zero-momentum") for x in sigma
     ]  # fmt: skip
     (above, below), table, caption = draw("fig05", runs)
-    mu, error = over(runs, "mu")
-    assert_points(above, ([-0.5, 0.5], mu, error))
-    assert_points(below, ([-0.5, 0.5], 10, 1e3 * error))
-    local = 0.5 - np.arctan(np.array([-0.5, 0.5]) / 0.75**0.5 * 3**0.5) / np.pi
-    assert_line(below, [-0.5, 0.5], 1e3 * (local - np.arccos([-0.5, 0.5]) / np.pi))
-    np.testing.assert_allclose(table.law, [2 / 3, 1 / 3])
+    shown = [over(part, "mu") for part in (runs[:2], runs[2:])]
+    assert_points(above, *((sigma, *each) for each in shown), ([], [], []))
+    assert_points(below, *((sigma, 10, 1e3 * error) for _, error in shown), ([], [], []))
+    mass = 11 * np.array([1 / 3, 3]) + 11 * 20 / 3 - 11
+    for momentum in (11 * 20 / 3, 0):
+        part = (1 - momentum / mass) / mass
+        expected = np.arccos((sigma + part) / (1 - part)) / np.pi
+        assert_line(below, sigma, 1e3 * (expected - np.arccos(sigma) / np.pi))
+    np.testing.assert_allclose(table.law, [2 / 3, 1 / 3] * 2)
     np.testing.assert_allclose(table.deviation, 0.01)
     assert "0.0100(" in caption
 
@@ -72,7 +79,8 @@ def test_fig07() -> None:
     random = table[~table.zero_total_momentum]
     np.testing.assert_allclose(random.fraction, 0.3 * time**2 / (4 * time**1.8))
     relative = [
-        error / mean for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
+        error / mean
+        for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
     assert "is 1.800(18) at N = 11 and 1.100(11) with zero total momentum" in caption
@@ -80,7 +88,7 @@ def test_fig07() -> None:
 
 def test_fig07_inset() -> None:
     def alpha(series: str, sigma: float, value: float, **options: Any) -> Result:
-        given = RING | {"sigma": sigma} | {name.replace("_", "-"): each for name, each in options.items()}
+        given = RING | {"sigma": sigma} | options
         return result(f"{series}_sigma={sigma}", given, alpha=value)
 
     sigmas = (-0.5, 0, 0.5)

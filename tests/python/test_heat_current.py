@@ -62,19 +62,14 @@ def of_walkers(time: float, scattered: float) -> float:
     return float(np.trapezoid([u * of_speed(u) for u in speeds], np.log(speeds)))
 
 
-@pytest.mark.parametrize("scattered", [1.0, 0.3])
-def test_heat_variance_with_random_directions_is_that_of_walkers(
-    heat_current: Measure, scattered: float
-) -> None:
-    gamma = {} if scattered == 1 else {"gamma": 5 * scattered}
-    options = {"cells": 5, "replicas": 20000, "sigma": -1, "rule": "random-direction"}
-    result = heat_current(**LONGER | options | gamma)
+def test_heat_variance_with_random_directions_is_that_of_walkers(heat_current: Measure) -> None:
+    result = heat_current(**LONGER, cells=5, replicas=20000, sigma=-1, rule="random-direction")
     times = result["heat_variance"].axes["time"]
-    expected = np.array([of_walkers(time, scattered) for time in times])
+    expected = np.array([of_walkers(time, 1) for time in times])
     assert np.abs(scores(result["heat_variance"], expected)).max() < 4
     # Detected mistakes: windows that are 5 % longer; a probability that is 25 % smaller.
-    longer = np.array([of_walkers(1.05 * time, scattered) for time in times])
-    rarer = np.array([of_walkers(time, 0.75 * scattered) for time in times])
+    longer = np.array([of_walkers(1.05 * time, 1) for time in times])
+    rarer = np.array([of_walkers(time, 0.75) for time in times])
     assert np.abs(scores(result["heat_variance"], longer)).max() > 6
     assert np.abs(scores(result["heat_variance"], rarer)).max() > 6
 
@@ -128,8 +123,8 @@ def ring(
         return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, 0)
 
     middle = np.sqrt(time[1:] * time[:-1])
-    parameters = {"temperature": 1.0, "cell-length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit-from": 2.0,
-                  "rule": "elastic", "gamma": "N", "replicas": 64}  # fmt: skip
+    parameters = {"temperature": 1.0, "cell_length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit_from": 2.0,
+                  "rule": "elastic", "replicas": 64}  # fmt: skip
     quantities = {
         "heat_variance": quantity(time**power, error, time=time),
         "local_exponent": quantity(np.full(len(middle), power), of_exponent * error, middle=middle),
@@ -142,11 +137,11 @@ def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
     errors at all times, and the smaller error of the exponent from t = 2."""
     results = [ring([1, 2, 4], 0.01), ring([2, 4, 8], 0.0101, power=1.2, of_exponent=0.5)]
     results.append(ring([1, 2, 4, 8], 0.01, 1, rule="random-direction"))
-    results.append(ring([1, 2, 4, 8], 0.001, 1.1, gamma=90))
+    results.append(ring([1, 2, 4, 8], 0.001, 1.1, rule="rotation", rotation_probability=0.1))
     table = tabulate(results)
-    passing = table[table.passing == 0.1]
-    table = table[table.passing == 0]
-    np.testing.assert_allclose(passing.heat_variance, passing.time**1.1)
+    rotated = table[table.epsilon == 0.1]
+    table = table[table.epsilon == 0]
+    np.testing.assert_allclose(rotated.heat_variance, rotated.time**1.1)
     sound, random = (table[table.rule == rule] for rule in ("elastic", "random-direction"))
     assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
     np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.2])

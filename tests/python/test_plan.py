@@ -25,9 +25,19 @@ def test_every_quality_describes_every_panel(quality: str) -> None:
 def test_names_and_seeds_are_unique() -> None:
     panels = load_plan("paper").values()
     names = [(panel.name, run.name) for panel in panels for run in panel.runs]
-    seeds = [run.options["seed"] for panel in panels for run in panel.runs if run.replicated]
+    common = ("unit", "tripled")  # series with a common seed
+    seeds = [
+        run.options["seed"]
+        for panel in panels
+        for run in panel.runs
+        if run.replicated and run.series not in common
+    ]
     assert len(set(names)) == len(names)
     assert len(set(seeds)) == len(seeds)
+    assert (
+        len({run.options["seed"] for run in load_plan("paper")["stability"].runs if run.series in common})
+        == 1
+    )
 
 
 def test_seeds_stay_as_they_are() -> None:
@@ -59,14 +69,12 @@ def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     for given in ({"replicas": 32}, {"error": 0.1}):
-        completed = Selection.parse("smoke_replicas=5").with_effort(
-            "fig05", "paper", given | {"sigma": 0}, None
-        )
+        completed = Selection.parse("smoke_replicas=5").with_effort("fig05/paper", given | {"sigma": 0}, None)
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
     assert Selection.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
     quality = Selection.parse("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
-    completed = quality.with_effort("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
+    completed = quality.with_effort("fig05/paper", {"replicas": 500, "sigma": 0}, 200)
     assert {key: completed[key] for key in completed if key != "seed"} == {
         "sigma": 0,
         "target-error": 0.005,

@@ -22,7 +22,7 @@ from workflow.pipeline.sources import programs
 CLOSED = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 PULSE = {"cells": 41, "particles-per-cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
 EQUILIBRIUM = {"cells": 20, "observation-time": 8, "times": "0.5,1,2,4", "fit-from": 1, "replicas": 8}
-OPEN = {"cells": 4, "cell-length": 0.25, "relaxation-time": 0.5, "observation-time": 4, "replicas": 16}
+OPEN = {"cells": 4, "cell-length": 0.25, "relaxation-time": 0.5, "observation-time": 20, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
 CASES = {
     "persistence": ("persistence", CLOSED),
@@ -63,7 +63,11 @@ def measured(case: str) -> tuple[Result, Result]:
     """Results in the default units, and in other ones."""
     program, options = CASES[case]
     plain = call(program, options)
-    given_or_not = {name: value for name, value in plain.parameters.items() if name in plain.parameter_units}
+    given_or_not = {
+        name.replace("_", "-"): value
+        for name, value in plain.parameters.items()
+        if name in plain.parameter_units
+    }
     scaled = {name: OTHER.option(name, value) for name, value in given_or_not.items()}
     return plain, call(program, options | scaled)
 

@@ -52,6 +52,12 @@ def persistent(data: Data) -> list[Estimate]:
     return _named(data.results("fig05", "paper", sigma=0.5), "mu", "μ")
 
 
+def correlated(data: Data) -> list[Estimate]:
+    """Distance of mu from 1/2, the value of uncorrelated directions, at the sigma of the paper's figures."""
+    (mu,) = persistent(data)
+    return [replace(mu, label="|μ - 1/2|", value=abs(mu.value - 0.5))]
+
+
 def waiting_half(data: Data) -> list[Estimate]:
     """Exponent of the waiting times at sigma = 1/2. Its change with the age of the chain is a systematic
     error, too."""

@@ -20,7 +20,13 @@ TITLE = "Accuracy against time"
 UNITS = {"cpu_seconds": "second", "cost_of_1_percent": "second", "cost_without_control_variates": "second"}
 UNITS |= dict.fromkeys(("error", "deviation"), "1")
 
-OWN = ("relaxation", "window", "reference", "target", "kinetic")  # series; others are those of the panels used
+OWN = (
+    "relaxation",
+    "window",
+    "reference",
+    "target",
+    "kinetic",
+)  # series; others are those of the panels used
 STARTS = {"warm": ("o", style.BLACK), "cold": ("s", style.BLUE), "empty": ("^", style.VERMILLION)}
 PROGRAMS = {
     "conductivity": ("o", style.BLUE),
@@ -53,8 +59,14 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         origin, time = result.provenance, seconds(result)
         row = {"panel": result.path.parent.name, "series": result.series, "program": origin["program"]}
         row |= {"cells": result.parameters.get("cells"), "gamma": str(result.parameters.get("gamma"))}
-        row |= {name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")}
-        row |= {"target_error": origin["target_error"], "cpu_seconds": time, "error": origin["achieved_error"]}
+        row |= {
+            name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")
+        }
+        row |= {
+            "target_error": origin["target_error"],
+            "cpu_seconds": time,
+            "error": origin["achieved_error"],
+        }
         if row["program"] != "boltzmann":
             plain = origin["error_without_control_variates"]
             row["cost_of_1_percent"] = time * (row["error"] / PERCENT) ** 2
@@ -93,10 +105,15 @@ def draw_bias(axes: Axes, table: pd.DataFrame, name: str, symbol: str) -> None:
     for start, (marker, color) in STARTS.items():
         part = table[table.start == start].sort_values(name)
         axes.errorbar(
-            part.cpu_seconds, part.deviation.abs(), part.deviation_error, **style.points(marker, color, label=start)
+            part.cpu_seconds,
+            part.deviation.abs(),
+            part.deviation_error,
+            **style.points(marker, color, label=start),
         )
         axes.plot(part.cpu_seconds, part.deviation_error, color=color, linestyle="dotted", zorder=1)
-        style.cross_out(axes, part.cpu_seconds.to_numpy(), part.deviation.abs().to_numpy(), part.usable != True)  # noqa: E712
+        style.cross_out(
+            axes, part.cpu_seconds.to_numpy(), part.deviation.abs().to_numpy(), ~part.usable.astype(bool)
+        )
     ends = [f"{value:g}" for value in (table[name].min(), table[name].max())]
     axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$", ylim=(1e-3, 3))
     axes.set_xlabel(f"CPU time / s, {symbol} from {ends[0]} to {ends[1]}")
@@ -132,8 +149,8 @@ def rms_over_target(table: pd.DataFrame) -> str:
 
 
 def cost_at(table: pd.DataFrame, gamma: str, largest: bool) -> str:
-    """N and CPU seconds for 1 % of kappa in the panel of the conductivity."""
-    part = table[(table.panel == "fig08") & (table.program == "conductivity") & (table.gamma == gamma)]
+    """N and CPU seconds for 1 % of kappa in chains of 16 cells or more."""
+    part = table[~table.series.isin(OWN) & (table.program == "conductivity") & (table.gamma == gamma)]
     part = part[part.cells >= 16].sort_values("cells")
     row = part.iloc[-1 if largest else 0]
     return f"{row.cost_of_1_percent:.2g} s at N = {row.cells:g}"
@@ -148,7 +165,9 @@ def caption(table: pd.DataFrame) -> str:
 
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
-    sampled = table[~table.series.isin(OWN) & (table.program != "boltzmann")].dropna(subset="cost_of_1_percent")
+    sampled = table[~table.series.isin(OWN) & (table.program != "boltzmann")].dropna(
+        subset="cost_of_1_percent"
+    )
     figure, axes = plt.subplot_mosaic("aab;cde", figsize=(3 * style.COLUMN, 2 * style.HEIGHT))
     draw_costs(axes["a"], sampled)
     draw_bias(axes["b"], table[table.series == "relaxation"], "relaxation_time", "relaxation time")

@@ -18,7 +18,7 @@ TITLE = "Persistence probability against the mass ratio"
 UNITS = dict.fromkeys(("law", "deviation", "at_momentum"), "1")
 
 LOOKS = {
-    "paper": style.points("o", style.BLUE, label="$n = 20$, as in the paper"),
+    "paper": style.points("o", style.BLUE, label=r"$n = 20$, random $\Pi$"),
     "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = 20$, $\Pi = 0$"),
     "dense": style.points("^", style.GREEN, label="$n = 320$"),
 }

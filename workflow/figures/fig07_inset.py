@@ -18,7 +18,7 @@ TITLE = "Exponent of the mean square displacement against the mass ratio"
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
-PAPER, ZERO = "random total momentum, as in the paper", "zero total momentum"
+PAPER, ZERO = "random total momentum", "zero total momentum"
 RANDOM = RULE_PHRASES["random-direction"]
 LOOKS = {
     PAPER: style.points("o", style.BLUE, label=PAPER),

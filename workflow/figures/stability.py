@@ -85,7 +85,8 @@ def partings(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for (cells, time), (one, other) in sorted(units.items()):
         first, second = (
-            result["particle_energy"].mean / float(result.parameters["temperature"]) for result in (one, other)
+            result["particle_energy"].mean / float(result.parameters["temperature"])
+            for result in (one, other)
         )
         error = float(one["particle_energy"].error / one["particle_energy"].mean)
         row = {"part": "unit", "cells": cells, "observation_time": time, "collisions": collisions(one)}
@@ -106,7 +107,9 @@ def draw_drifts(axes: Axes, x: str, table: pd.DataFrame) -> None:
 def draw_limits(axes: Axes, table: pd.DataFrame) -> None:
     rows = np.arange(len(table))[::-1]
     axes.axvline(0, **style.GUIDE)
-    axes.errorbar(1e3 * (table.ratio - 1), rows, xerr=1e3 * table.ratio_error, **style.points("o", style.BLACK))
+    axes.errorbar(
+        1e3 * (table.ratio - 1), rows, xerr=1e3 * table.ratio_error, **style.points("o", style.BLACK)
+    )
     axes.set(yticks=rows, yticklabels=table.limit, xlabel=r"$10^3\,(J_U/J_\mathrm{exact} - 1)$")
     axes.tick_params(axis="y", which="minor", left=False, right=False)
 
@@ -125,7 +128,9 @@ def parted(table: pd.DataFrame) -> str:
     texts = []
     for cells, part in table.groupby("cells"):
         apart = part[part.difference > 1e-9]
-        texts.append(f"{scientific(apart.collisions.min(), 1)} (N = {cells})" if len(apart) else f"none (N = {cells})")
+        texts.append(
+            f"{scientific(apart.collisions.min(), 1)} (N = {cells})" if len(apart) else f"none (N = {cells})"
+        )
     return ", ".join(texts)
 
 
@@ -142,7 +147,9 @@ def caption(walks: pd.DataFrame, known: pd.DataFrame, pairs: pd.DataFrame) -> st
 
 @plots(f"rounding mass-ratio unit tripled {' '.join(LIMITS)}")
 def draw(results: Sequence[Result]) -> Parts:
-    of = {name: [result for result in results if result.series == name] for name in ("rounding", "mass-ratio")}
+    of = {
+        name: [result for result in results if result.series == name] for name in ("rounding", "mass-ratio")
+    }
     walks, masses = drifts(of["rounding"]), drifts(of["mass-ratio"])
     known = limits([result for name in LIMITS for result in results if result.series == name])
     pairs = partings([result for result in results if result.series in ("unit", "tripled")])
