@@ -63,10 +63,9 @@ concept RandomRule = requires(const Rule& rule, double& u, double& w, std::uint3
 /// dynamics choose: left or right with equal probability, at the end of an open chain the one that exists.
 /// Pending events do not depend on a scatterer, so no time of arrival changes.
 template <class Rule>
-concept NeighbourRule = requires(const Rule& rule, double& u, double& w, double& neighbour,
-                                 std::uint32_t cell, RandomStream& random) {
-  rule(u, w, neighbour, cell, random);
-};
+concept NeighbourRule =
+    requires(const Rule& rule, double& u, double& w, double& neighbour, std::uint32_t cell,
+             RandomStream& random) { rule(u, w, neighbour, cell, random); };
 
 template <class Rule>
 concept DrawingRule = RandomRule<Rule> || NeighbourRule<Rule>;

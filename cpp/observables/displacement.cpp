@@ -101,8 +101,7 @@ Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
   Group::Prepared reduced = reduce_variance(plain, {{squares, columns_of({tallies.momentum_square})}});
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
-  return possible ? reduced
-                  : Group::Prepared{plain, ControlVariates{0, reduced.control_variates->needed}};
+  return possible ? reduced : Group::Prepared{plain, ControlVariates{0, reduced.control_variates->needed}};
 }
 
 std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallies) {

@@ -79,7 +79,8 @@ void validate(const Parameters& parameters) {
                    "--cell-length, --relaxation-time, --times");
   if (parameters.pulse_energy <= parameters.energy)
     throw UsageError(
-        "--pulse-energy does not exceed --energy: the pulse would take energy away, and no peak moves. Choose "
+        "--pulse-energy does not exceed --energy: the pulse would take energy away, and no peak moves. "
+        "Choose "
         "a higher one.");
   if (parameters.pulse_cells > chain.cells)
     throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
@@ -218,8 +219,8 @@ std::vector<double> ring_closed(const Records& records, const Tallies& tallies) 
 
 /// Whether the energy of the pulse exceeds five of its standard errors: otherwise a peak is noise.
 bool injected(const Records& records, const Tallies& tallies) {
-  const Estimate energy = jackknife(
-      records, [&](TallyMeans mean) { return std::vector{mean[tallies.injected_energy]}; });
+  const Estimate energy =
+      jackknife(records, [&](TallyMeans mean) { return std::vector{mean[tallies.injected_energy]}; });
   return !(energy.mean.front() <= 5 * energy.standard_error.front());
 }
 

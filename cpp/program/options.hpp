@@ -125,7 +125,8 @@ class Options {
   /// spaces: a part of the result's identity (workflow/lib/identity.py).
   const std::string& option_words() const { return option_words_; }
 
-  /// Values of all options that determine the result, sorted by name, as relaxation_time of --relaxation-time.
+  /// Values of all options that determine the result, sorted by name, as relaxation_time of
+  /// --relaxation-time.
   std::vector<Parameter> parameters() const;
 
  private:

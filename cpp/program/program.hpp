@@ -23,7 +23,8 @@ struct Outcome {
   std::string target_quantity{};
   double target_error = 0;    // NaN without a target
   double achieved_error = 0;  // relative as the target; NaN if it is not known, as where all replicas agree
-  double plain_error = std::numeric_limits<double>::quiet_NaN();  // without control variates, if there are any
+  double plain_error =
+      std::numeric_limits<double>::quiet_NaN();  // without control variates, if there are any
   Convergence convergence = Convergence::not_reached;
 };
 

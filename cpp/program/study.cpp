@@ -259,7 +259,9 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
   const double mean = quantity.mean.front();
   outcome.achieved_error = relative_error(outcome.results);
   outcome.plain_error =
-      quantity.control_variates ? relative_error(group_of(study_.target).without_control_variates().estimate(records)) : none;
+      quantity.control_variates
+          ? relative_error(group_of(study_.target).without_control_variates().estimate(records))
+          : none;
   if (target_error_ == 0)
     outcome.convergence = Convergence::no_target;
   else if (std::isfinite(mean) && StoppingRule::reached(replicas, outcome.achieved_error / target_error_))

@@ -110,10 +110,10 @@ void validate(const ScatteringParameters& parameters) {
         "--rule {}: a single scatterer has no neighbour. Choose at least 2 --cells, or another --rule.",
         rule.name));
   if (rule.name == Printed::properties.name && std::abs(parameters.sigma) == 1)
-    throw UsageError(
-        fmt::format("--sigma {}: the paper's formula has no such limit. Choose a --sigma between -1 and 1, or "
-                    "--rule elastic.",
-                    parameters.sigma));
+    throw UsageError(fmt::format(
+        "--sigma {}: the paper's formula has no such limit. Choose a --sigma between -1 and 1, or "
+        "--rule elastic.",
+        parameters.sigma));
 }
 
 void declare(Options& options, Reservoir& left, Reservoir& right) {

@@ -45,8 +45,8 @@ Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Columns controls = columns_of({tallies.injection});
     const Group::Prepared halves = reduce_variance(records, {{tallies.halves(), controls}});
-    const double of_halves = smallest_p_value(halves.records, tallies.halves(),
-                                              halves.control_variates->used),
+    const double of_halves =
+                     smallest_p_value(halves.records, tallies.halves(), halves.control_variates->used),
                  of_energy = smallest_p_value(records, columns_of({tallies.energy}), 0);
     // Half of the level for each, NaN left out.
     const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);
@@ -64,8 +64,9 @@ Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
 std::vector<std::string> remarks_on_stationarity(const Results& results) {
   const double stationary = quantity_named(results, "stationary").mean.front();
   if (std::isnan(stationary))
-    return {"not tested whether stationary: too few replicas or injections; choose more --replicas, or a longer "
-            "--observation-time"};
+    return {
+        "not tested whether stationary: too few replicas or injections; choose more --replicas, or a longer "
+        "--observation-time"};
   if (stationary == 1) return {};
   return {
       fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles changes by "

@@ -20,7 +20,9 @@ std::size_t varying(const MatrixXd& controls) {
 }
 
 /// The least number of records for a regression on so many columns.
-std::size_t records_needed(std::size_t columns) { return columns > 0 ? std::max(3 * columns, columns + 8) : 0; }
+std::size_t records_needed(std::size_t columns) {
+  return columns > 0 ? std::max(3 * columns, columns + 8) : 0;
+}
 
 }  // namespace
 

@@ -55,7 +55,8 @@ class MovingPeak {
  private:
   /// Minus the slope of ln height against ln t over the times with a peak, from time number `first` on.
   double exponent_from(std::size_t first) const;
-  /// The same over the times with a peak in [begin, end]; NaN unless the last is `least_ratio` times the first.
+  /// The same over the times with a peak in [begin, end]; NaN unless the last is `least_ratio` times the
+  /// first.
   double exponent_between(double begin, double end, double least_ratio) const;
 
   std::span<const double> profiles_;

@@ -30,13 +30,13 @@ def at_momentum(result: Result) -> float:
     particles."""
     sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])
     if abs(sigma) == 1:
-        return float(persistence_law(np.float64(sigma)))
+        return float(np.arccos(sigma) / np.pi)
     energy = cells * result.parameters["particles_per_cell"] * float(result.parameters["temperature"])  # 2 E
     temperature = float(result["particle_energy"].mean + result["scatterer_energy"].mean)
     total_mass = cells * mass(result) + energy / temperature - cells
     # Scatterers start at rest, so that the mean square of the total momentum is that of the particles.
     momentum = 0 if result.parameters["zero_total_momentum"] else energy / temperature
-    return float(persistence_at_momentum(sigma, total_mass, momentum))
+    return persistence_at_momentum(sigma, total_mass, momentum)
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -39,7 +39,10 @@ class Case(NamedTuple):
 
 
 # Filled where momentum is conserved, open where it is not; the larger the fraction, the lighter.
-LOOKS = {"elastic": [("o", style.BLACK, None)], "rotation": [("s", style.BLUE, None), ("D", style.SKY, None)]}
+LOOKS: dict[str, list[tuple[str, str, str | None]]] = {
+    "elastic": [("o", style.BLACK, None)],
+    "rotation": [("s", style.BLUE, None), ("D", style.SKY, None)],
+}
 LOOKS |= {"reversal": [("v", style.VERMILLION, "white"), ("^", style.ORANGE, "white")]}
 
 

@@ -5,6 +5,7 @@ The exact trajectories of the chain agree in both units, but every rounding diff
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -70,7 +71,7 @@ def limits(results: Sequence[Result]) -> pd.DataFrame:
         elif name == "temperature_right":
             value /= result.ends("temperature")[0]
         current, exact = result["energy_current_mean"], exact_current(result)
-        row = {"part": result.series, "limit": f"${symbol} = ${scientific(value, 1)}"}
+        row: dict[str, Any] = {"part": result.series, "limit": f"${symbol} = ${scientific(value, 1)}"}
         row |= {"ratio": float(current.mean) / exact, "ratio_error": float(current.error) / abs(exact)}
         rows.append(row)
     return pd.DataFrame(rows)

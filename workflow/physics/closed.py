@@ -13,11 +13,11 @@ def persistence_law(sigma: np.ndarray) -> np.ndarray:
     return np.arccos(sigma) / np.pi
 
 
-def persistence_at_momentum(sigma: np.ndarray, total_mass: np.ndarray, momentum: np.ndarray) -> np.ndarray:
+def persistence_at_momentum(sigma: float, total_mass: float, momentum: float) -> float:
     """Persistence where the total momentum is conserved [eq. 11]. total_mass: variance that it would have if
     the momenta were independent, over T; momentum: its mean square, over T."""
     reduction = (1 - momentum / total_mass) / total_mass
-    return np.arccos((sigma + reduction) / (1 - reduction)) / np.pi
+    return float(np.arccos((sigma + reduction) / (1 - reduction)) / np.pi)
 
 
 def quasi_stationary(particles: float, start: float, length: float, time: ArrayLike) -> np.ndarray:

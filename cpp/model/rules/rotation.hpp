@@ -14,8 +14,8 @@ namespace lorentz {
 ///
 /// In energy-normalised velocities (u, U, U') energy is the square of the length, and momentum the component
 /// along n = (1, sqrt(M), sqrt(M))/sqrt(1 + 2M), so that the circle is a rotation about n by an angle uniform
-/// in [0, 2 pi). The measure [eq. 8] is invariant, as its density depends on the length alone, and the rule is
-/// reversible in distribution, as an angle and its opposite are equally probable.
+/// in [0, 2 pi). The measure [eq. 8] is invariant, as its density depends on the length alone, and the rule
+/// is reversible in distribution, as an angle and its opposite are equally probable.
 class Rotation : public Elastic {
  public:
   static constexpr std::array options{
@@ -23,8 +23,9 @@ class Rotation : public Elastic {
                  "Probability that the momenta of the particle and of two scatterers are rotated", 0, 1}};
   static constexpr RuleProperties properties{
       .name = "rotation",
-      .description = "elastic, then with --rotation-probability particle, scatterer and a neighbouring "
-                     "scatterer exchange energy and momentum at random",
+      .description =
+          "elastic, then with --rotation-probability particle, scatterer and a neighbouring "
+          "scatterer exchange energy and momentum at random",
       .conserves_energy = true,
       .conserves_momentum = true,
       .invariant = InvariantMeasure::maxwellian,

@@ -64,7 +64,8 @@ std::vector<double> scores(const std::vector<Velocities>& all) {
   std::vector<std::vector<double>> products(11);
   for (const auto& [u, U, V] : all) {
     const double u2 = u * u - 1, U2 = U * U - 1, V2 = V * V - 1;
-    const std::vector<double> values = {u, U, u * U, u2, U2, u2 * U2, std::abs(u) * U, V2, u * V, U * V, U2 * V2};
+    const std::vector<double> values = {u,  U,     u * U, u2,     U2, u2 * U2, std::abs(u) * U,
+                                        V2, u * V, U * V, U2 * V2};
     for (std::size_t k = 0; k < values.size(); ++k) products[k].push_back(values[k]);
   }
   std::vector<double> scores;
@@ -81,13 +82,10 @@ TEST(Rules, HaveThePropertiesThatTheyState) {
       const Rules any = make_rule(support::example(rule), sigma);
       const double root_mass = masses(any).root_mass();
       const Encounters seen = encounters(any, 1);
-      const double energy = largest_change(seen, [](const Velocities& v) {
-        return v.u * v.u + v.U * v.U + v.neighbour * v.neighbour;
-      });
+      const double energy = largest_change(
+          seen, [](const Velocities& v) { return v.u * v.u + v.U * v.U + v.neighbour * v.neighbour; });
       const double momentum =
-          largest_change(seen, [&](const Velocities& v) {
-        return v.u + root_mass * (v.U + v.neighbour);
-      });
+          largest_change(seen, [&](const Velocities& v) { return v.u + root_mass * (v.U + v.neighbour); });
       EXPECT_EQ(energy < 1e-12, rule.conserves_energy) << rule.name << " " << sigma;
       EXPECT_EQ(momentum < 1e-12, rule.conserves_momentum) << rule.name << " " << sigma;
       const double largest = std::ranges::max(scores(seen.after));
@@ -132,9 +130,9 @@ std::vector<std::pair<Velocities, Velocities>> rotations(double sigma) {
   return pairs;
 }
 
-// The mean over the circle is its centre, and every velocity is exchanged with every other at equal rates: the
-// mean of f(before) g(after) is that of g(before) f(after). Detected mistakes: half of the circle is used; the
-// neighbour gets energy only.
+// The mean over the circle is its centre, and every velocity is exchanged with every other at equal rates:
+// the mean of f(before) g(after) is that of g(before) f(after). Detected mistakes: half of the circle is
+// used; the neighbour gets energy only.
 TEST(Rules, RotationIsUniformAndReversible) {
   for (const double sigma : sigmas) {
     const double root_mass = Elastic(sigma).root_mass(), square = 1 + 2 * root_mass * root_mass;

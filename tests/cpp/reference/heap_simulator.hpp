@@ -53,8 +53,8 @@ class HeapSimulator {
     coin_.seed(seed);
   }
 
-  /// After every collision rotates the momenta of the particle, its scatterer and a neighbouring one, with this
-  /// probability.
+  /// After every collision rotates the momenta of the particle, its scatterer and a neighbouring one, with
+  /// this probability.
   void rotate_with(double probability, std::uint64_t seed) {
     rotated_ = std::bernoulli_distribution(probability);
     coin_.seed(seed);

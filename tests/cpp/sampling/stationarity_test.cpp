@@ -23,8 +23,7 @@ TEST(Drift, ChangesBetweenTheHalves) {
   drift.on_injection(End::left, 3, 0);
   drift.on_exit(End::right, 7, 4);
   drift.on_exit(End::left, 10, -8);
-  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U})
-    drift.on_scatterer(scatterer, 1. * scatterer, 6);
+  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U}) drift.on_scatterer(scatterer, 1. * scatterer, 6);
   drift.finish({0, 2, 4, 6, 8}, 10);
   TallySums sums(schema);
   drift.record(tallies, sums);
@@ -71,8 +70,8 @@ TEST(Stationarity, DriftOfOneColumnIsFound) {
 }
 
 // Detected mistakes: the gain is compared with its error alone, so that the slow growth of every chain
-// counts; with the number of particles in place of their share; a chain that loses particles passes; one passes
-// whose gain could not be seen.
+// counts; with the number of particles in place of their share; a chain that loses particles passes; one
+// passes whose gain could not be seen.
 TEST(Stationarity, GainOfParticles) {
   TallySchema schema;
   const DriftTallies tallies(schema);

@@ -52,8 +52,7 @@ TEST(Group, EstimatesFromPreparedRecords) {
   const Tallies tallies;
   Records prepared(tallies.width());
   prepared.append(std::vector{-3., 1.});
-  for (const std::optional<ControlVariates>& used :
-       {std::optional<ControlVariates>(), {{0, 9}}, {{2, 9}}}) {
+  for (const std::optional<ControlVariates>& used : {std::optional<ControlVariates>(), {{0, 9}}, {{2, 9}}}) {
     Group corrected([&](const Records&) { return Group::Prepared{prepared, used}; });
     corrected.quantity("mean", "1", "A mean", [=](TallyMeans mean) { return mean[tallies.a]; });
     const Results results = corrected.estimate(records());

@@ -98,8 +98,8 @@ TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentre) {
   EXPECT_NEAR(peak.values().back(), 1, 1e-3);
 }
 
-// Heights 1/t without a peak at the end of an octave. Detected mistakes: the octave is lost; a fit that covers
-// less than half of the octave is kept.
+// Heights 1/t without a peak at the end of an octave. Detected mistakes: the octave is lost; a fit that
+// covers less than half of the octave is kept.
 TEST(MovingPeak, OctavesLeaveOutTimesWithoutAPeak) {
   const std::vector<double> times{1, 1.2, 1.5, 2, 2.1, 2.2, 4};
   std::vector<double> mean;
