@@ -72,7 +72,8 @@ def test_fig07() -> None:
     random = table[~table.zero_total_momentum]
     np.testing.assert_allclose(random.fraction, 0.3 * time**2 / (4 * time**1.8))
     relative = [
-        error / mean for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
+        error / mean
+        for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
     assert "is 1.800(18) at N = 11 and 1.100(11) with zero total momentum" in caption

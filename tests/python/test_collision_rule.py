@@ -63,7 +63,9 @@ def test_without_noise_the_rule_is_elastic(measure: Measure, name: str, quantity
     assert not np.array_equal(elastic, seldom)
 
 
-@pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N"), (ROTATION, "N"), (ROTATION, 3)])
+@pytest.mark.parametrize(
+    ("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N"), (ROTATION, "N"), (ROTATION, 3)]
+)
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8].
     Detected mistake: temperatures that are 2 % too high."""
@@ -82,4 +84,4 @@ def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> Non
     with pytest.raises(
         TheoryError, match=r"holds for elastic collisions only, and .* has the rule random-direction"
     ):
-        draw([Result(ROOT, {"rule": "random-direction", "nu-left": 1}, {}, {})])
+        draw([Result(ROOT, {"rule": "random-direction", "nu_left": 1}, {}, {})])

@@ -59,11 +59,11 @@ def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:
 def test_the_speed_of_sound_before_the_pulse() -> None:
     """ζ = n/2Λ, and T conserves the energy [eqs. 13, 14, 56], in cells of length 2."""
     options = {
-        "particles-per-cell": 50,
+        "particles_per_cell": 50,
         "energy": 5000,
-        "cell-length": 2.0,
+        "cell_length": 2.0,
         "sigma": 0.5,
-        "relaxation-time": 1,
+        "relaxation_time": 1,
     }
     temperature, slow = (values.item() for values in quasi_stationary(50, 1e4, 2, 1))
     assert 50 * temperature / slow + temperature == pytest.approx(50 * 1e4)
@@ -78,7 +78,10 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
         ([np.nan, 400.0, 350.0, 300.0, np.nan], "falls from 400(10) to 300(10)"),
         ([400.0, 250.0, 300.0], "falls from 400(10) to 250(10) at t = 2, and is then 300(10)"),
         ([300.0, 350.0, 400.0], "rises from 300(10) to 400(10)"),
-        ([400.0, 410.0, 390.0], "is 400.0(2.0) on average"),  # positions with errors of 3: the bound at any correlation
+        (
+            [400.0, 410.0, 390.0],
+            "is 400.0(2.0) on average",
+        ),  # positions with errors of 3: the bound at any correlation
         ([np.nan, np.nan], "is not resolved"),
     ],
 )
@@ -96,7 +99,7 @@ def test_the_caption_states_a_change_of_speed_if_it_is_significant(speeds: list[
 def test_the_excess_of_waiting_times_is_that_of_the_tail() -> None:
     """Detected mistakes: bins before the tail or with large errors count; the excess of an infinite number
     of particles is wrong; weights are not those of the expected counts, 8 and 6."""
-    options = {"tail-from": 20.0, "cell-length": 1.0, "temperature": 400.0, "particles-per-cell": 20}
+    options = {"tail_from": 20.0, "cell_length": 1.0, "temperature": 400.0, "particles_per_cell": 20}
     table = pd.DataFrame({"tau": [0.5, 2.0, 3.0, 4.0], "gaussian_start": [8.0, 4.0, 2.0, 1.0]})
     table = table.assign(density=table.gaussian_start * [3, 1.08, 1.22, 5], density_error=0.04, unsure=False)
     table.loc[3, "unsure"] = True

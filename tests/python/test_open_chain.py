@@ -20,7 +20,14 @@ def reference(
     cells: int, gamma: float, relaxation: float, observation: float, rotation: float = 0
 ) -> dict[str, np.ndarray]:
     """Measurements of the reference simulator with the default baths, [replica, value]."""
-    chain = {"cells": cells, "cell_length": 1 / cells, "sigma": 0.5, "gamma": gamma, "rotation": rotation, **BATHS}
+    chain = {
+        "cells": cells,
+        "cell_length": 1 / cells,
+        "sigma": 0.5,
+        "gamma": gamma,
+        "rotation": rotation,
+        **BATHS,
+    }
     times = {"relaxation_time": relaxation, "observation_time": observation}
     bins = {"momentum_bins": BINS, "momentum_max": MAX}
     rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1)

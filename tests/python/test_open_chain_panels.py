@@ -50,7 +50,7 @@ def test_fig01_has_fewer_curves_where_they_coincide() -> None:
         )
         for name, length, heights in (("unit-chain", "1/N", [7.0, 9, 7.1]), ("unit-spacing", 1.0, [7.0, 8, 9]))
     ]  # fmt: skip
-    (above, other, middle, other_middle, *_), table, caption = drawn("fig01", chains)
+    (above, other, middle, other_middle, *_), table, caption = draw("fig01", chains)
     curves = [
         [line for line in axes.get_lines() if line.get_label().startswith("$t")]
         for axes in (above, other, middle, other_middle)

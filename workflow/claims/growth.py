@@ -19,13 +19,15 @@ from workflow.lib.caption import format_number
 from workflow.lib.load import Result
 from workflow.physics.rings import chain
 
-
 LARGE = 4  # the largest sizes are those within this factor of the largest: two octaves
 LONG = 128  # cells; in shorter chains the exponents over the largest sizes still change
 LATE = 64  # time in λ/√T from which the exponents of rings are judged: earlier ones still fall
 DISTURBED = 0.1  # fraction of the collisions that are followed by a rotation or by a reversal
 # Series: of fig. 8 by γ, and rings with the paper's rule.
-SIZES: dict[str | int, tuple[str, ...]] = {"N": ("deterministic", "deterministic-large"), 1: ("rare", "rare-small")}
+SIZES: dict[str | int, tuple[str, ...]] = {
+    "N": ("deterministic", "deterministic-large"),
+    1: ("rare", "rare-small"),
+}
 ELASTIC = ("light", "light-long", "light-longest", "dense-longest", "dilute-longest", "sparse-longest")
 
 

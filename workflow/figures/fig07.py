@@ -84,7 +84,13 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
             above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=0)
-            style.band(above, table.time, table.centre_of_mass_variance, table.centre_of_mass_variance_error, look["color"])
+            style.band(
+                above,
+                table.time,
+                table.centre_of_mass_variance,
+                table.centre_of_mass_variance_error,
+                look["color"],
+            )
     above.plot([], [], color="grey", label="centre of mass")
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):

@@ -62,7 +62,7 @@ def tabulate(judgements: Sequence[Judgement], release: Verdicts) -> pd.DataFrame
     """One row per row of the claims, in the order of the figures; low, high: ends of the interval."""
     rows = []
     for row, verdict in ((one.row, one.verdict) for one in judgements):
-        number, band = verdict.shown if verdict.numbers else None, verdict.band
+        number, band = verdict.decisive if verdict.numbers else None, verdict.band
         names = ("value", "error", "systematic")
         value, error, systematic = (getattr(number, name) if number else math.nan for name in names)
         ends = number.interval(verdict.level / len(verdict.numbers)) if number else (math.nan, math.nan)

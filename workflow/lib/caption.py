@@ -61,7 +61,9 @@ def parameters(results: Sequence[Result], *names: str) -> str:
         words = sorted(value for value in values if isinstance(value, str))
         if values:
             texts.append(
-                SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}").format(listed([*map(format_number, numbers), *words]))
+                SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}").format(
+                    listed([*map(format_number, numbers), *words])
+                )
             )
     return ", ".join(texts)
 
