@@ -84,4 +84,4 @@ def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> Non
     with pytest.raises(
         TheoryError, match=r"holds for elastic collisions only, and .* has the rule random-direction"
     ):
-        draw([Result(ROOT, {"rule": "random-direction", "nu-left": 1}, {}, {})])
+        draw([Result(ROOT, {"rule": "random-direction", "nu_left": 1}, {}, {})])

@@ -16,7 +16,7 @@ from workflow.lib.load import FormatError, Quantity, Result, digest, load, load_
 FLUX = (
     "results/flux"  # over 4 bonds and 4 bins of the momentum, so that lengths do not identify the dimensions
 )
-BUILT = ("program", "words", "source_hash")
+BUILT = ("program", "option_words", "source_hash")
 
 
 @pytest.fixture
@@ -103,7 +103,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (Path.unlink, " is missing"),
         (lambda path: path.write_bytes(path.read_bytes()[:3000]), " is damaged, or not a result file: "),
         (attribute("format", "another"), ": not a result of this project"),
-        (attribute("format_version", 2), ": format version 2, not 4; remake it with make figures"),
+        (attribute("format_version", 2), ": format version 2, not 5; remake it with make figures"),
     ],
 )
 def test_load_refuses_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
@@ -138,7 +138,7 @@ def test_an_edited_value_is_refused(path: Path, name: str) -> None:
     [
         ("parameters", "sigma", 0.05),  # a default
         ("parameters", "cells", np.uint64(4)),  # given
-        ("parameter_units", "relaxation-time", "energy"),
+        ("parameter_units", "relaxation_time", "energy"),
         ("provenance", "converged", "reached"),
         (f"{FLUX}/mean", "units", "energy"),
     ],
@@ -167,7 +167,7 @@ def test_the_replicas_of_a_result_are_those_of_its_most_complete_quantity() -> N
     """Replicas in which a quantity is not defined do not count for it. A computed value has no error."""
     counts = {"front": [8, 64], "rate": [32, 32]}
     quantities = {
-        name: Quantity(np.ones(2), np.ones(2), None, np.array(n), {}, "1", {}, None)
+        name: Quantity(np.ones(2), np.ones(2), None, np.array(n), {}, "1", {}, 0)
         for name, n in counts.items()
     }
     results = [
@@ -177,4 +177,4 @@ def test_the_replicas_of_a_result_are_those_of_its_most_complete_quantity() -> N
     assert results[0].replicas == 64
     assert caption.replicas(results) == "32 to 64 replicas"
     with pytest.raises(FormatError, match="computed quantity"):
-        _ = Quantity(np.ones(2), None, np.zeros(2), None, {}, "1", {}, None).error
+        _ = Quantity(np.ones(2), None, np.zeros(2), None, {}, "1", {}, 0).error

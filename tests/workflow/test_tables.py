@@ -89,10 +89,10 @@ def test_every_column_scales_as_its_units_and_every_panel_has_a_caption(smoke: P
 
 def of_the_user(result: Result, number: int) -> Result:
     """A result of another series, whose options agree with those of no shipped one."""
-    other = {"cells": 22, "sigma": 0.25, "gamma": 3, "particles-per-cell": 40, "rule": "reversal"}
+    other = {"cells": 22, "sigma": 0.25, "gamma": 3, "particles_per_cell": 40, "rule": "reversal"}
     changed = {name: value for name, value in other.items() if name in result.parameters}
     path = result.path.with_name(f"mine_cells={number}.h5")
-    return replace(result, path=path, parameters=result.parameters | {"reversal-probability": 0.2} | changed)
+    return replace(result, path=path, parameters=result.parameters | {"reversal_probability": 0.2} | changed)
 
 
 @pytest.mark.parametrize("panel", OF_RUNS)
