@@ -49,20 +49,14 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def by_octave(result: Result) -> pd.DataFrame:
     """Local exponents, with the last times and the geometric middles of the octaves over which they are
-    fitted: those with a peak. The program gives no exponent where a height is NaN. For the last octave it is
-    that of the fit from its first height on, which has the heights of this octave only."""
-    local, later, peak = (
-        result[name] for name in ("local_damping_exponent", "damping_exponent_from", "peak")
-    )
+    fitted: those with a peak."""
+    local, peak = result["local_damping_exponent"], result["peak"]
     times, until, rows = peak.axes["time"], local.axes["until"], []
     known = times[resolved(peak.mean)]
     for k, first in enumerate([times[0], *until[:-1]]):
         octave = known[(known >= first) & (known <= until[k])]
-        fit, index = local, k
-        if np.isnan(local.mean[k]) and len(octave) > 1 and octave[-1] == known[-1]:
-            fit, index = later, int(np.searchsorted(later.axes["from"], octave[0]))
         ends = octave[[0, -1]] if len(octave) > 1 else np.array([np.nan, until[k]])
-        rows.append((ends[1], np.sqrt(ends.prod()), fit.mean[index], fit.error[index]))
+        rows.append((ends[1], np.sqrt(ends.prod()), local.mean[k], local.error[k]))
     return pd.DataFrame(rows, columns=["until", "octave_middle", "octave_exponent", "octave_exponent_error"])
 
 
