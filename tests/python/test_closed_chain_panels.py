@@ -171,7 +171,7 @@ def test_fig10_plots_an_octave_at_the_middle_of_its_known_heights() -> None:
     octaves = table.dropna(subset="octave_exponent").set_index("time")
     np.testing.assert_allclose(octaves.octave_middle, [2**0.5, 8**0.5, (4 * 5.6) ** 0.5])
     assert octaves.octave_exponent[5.6] == 0.64
-    assert "from rest goes from 0.6000(60) to 0.6400(" in caption
+    assert "goes from 0.6000(61) to 0.6400(74)" in caption
 
 
 def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:
