@@ -63,7 +63,7 @@ def of_walkers(time: float, scattered: float) -> float:
 
 
 def test_heat_variance_with_random_directions_is_that_of_walkers(heat_current: Measure) -> None:
-    result = heat_current(**LONGER, cells=5, replicas=20000, sigma=-1, rule="random-direction")
+    result = heat_current(**LONGER | {"cells": 5, "replicas": 20000, "sigma": -1, "rule": "random-direction"})
     times = result["heat_variance"].axes["time"]
     expected = np.array([of_walkers(time, 1) for time in times])
     assert np.abs(scores(result["heat_variance"], expected)).max() < 4

@@ -76,7 +76,7 @@ def test_an_answer_with_several_quantities_labels_them() -> None:
     data = Planned("smoke", ROOT)
     data.plan = {}
     page = rendered(judged("contradicted"), data, release=True).decode()
-    assert page.count("(first: 0.5000(10); second: 0.2500(20))") == 2
+    assert page.count("first: 0.5000(10); second: 0.2500(20))") == 2
 
 
 ROWS = {(row["numbers"], row["kind"]): row for row in read_claims(ROOT)}
@@ -111,7 +111,7 @@ def test_the_answer_has_a_line_for_every_figure_and_counts_at_the_end() -> None:
         "Fig. 1: differs. “The front p0(t) falls logarithmically” is contradicted (second: 0.2500(20); accepted: 1 to 2)."
         in page
     )
-    assert "Undecided: “The number of particles n(t) grows as log t”." in page
+    assert "Undecided: “n(t) grows as log t, with the slope |p| nt(p)”." in page
     assert (
         "Fig. 2: reproduced, but not literally. “Particles and scatterers of a cell have the same temperature” is"
         in page
