@@ -110,12 +110,12 @@ def test_stability() -> None:
     assert_points(currents, ([1] * 4, np.arange(4)[::-1], [10.01] * 4))
     assert_points(partings, ([100] * 3, [1e-17, 1e-17, 0.01], [0, 0, 0]))
     assert [*table.limit.dropna()] == [
-        "$\\gamma = $1·10⁻⁶",
-        "$1 + \\sigma = $1·10⁻³",
-        "$1 - \\sigma = $1·10⁻³",
-        "$T_R/T_L = $1·10³",
+        "$\\gamma = 10^{-6}$",
+        "$1 + \\sigma = 10^{-3}$",
+        "$1 - \\sigma = 10^{-3}$",
+        "$T_R/T_L = 10^{3}$",
     ]
-    assert "energy changes by 1.0·10⁻¹⁵ as computed here and by 1.0·10⁻¹⁴ by the formula" in caption
+    assert "energy changes by 1.0·10⁻¹⁵ as computed here, by 1.0·10⁻¹⁴ by the paper's formula" in caption
 
 
 def test_model_is_a_picture_of_the_tabulated_flights() -> None:

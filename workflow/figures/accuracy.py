@@ -116,6 +116,8 @@ def draw_bias(axes: Axes, table: pd.DataFrame, name: str, symbol: str) -> None:
         )
     ends = [f"{value:g}" for value in (table[name].min(), table[name].max())]
     axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$", ylim=(1e-3, 3))
+    if name == "relaxation_time":
+        style.label_within_decades(axes.xaxis)
     axes.set_xlabel(f"CPU time / s, {symbol} from {ends[0]} to {ends[1]}")
 
 
@@ -128,6 +130,7 @@ def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
         look = style.points(marker, style.BLUE, "white", label=f"{100 * target:g} %")
         axes.errorbar(runs.cpu_seconds, runs.deviation / target, runs.error / target, **look)
     axes.set(xscale="log", xlabel="CPU time / s", ylabel="deviation / target error")
+    style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left", title="target", ncols=3)
     axes.set_ylim(-2.5, 4)
 
@@ -165,9 +168,8 @@ def caption(table: pd.DataFrame) -> str:
 
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
-    sampled = table[~table.series.isin(OWN) & (table.program != "boltzmann")].dropna(
-        subset="cost_of_1_percent"
-    )
+    sampled = table[~table.series.isin(OWN) & (table.error < 0.5)]  # of targets other than 0
+    sampled = sampled.dropna(subset="cost_of_1_percent")
     figure, axes = plt.subplot_mosaic("aab;cde", figsize=(3 * style.COLUMN, 2 * style.HEIGHT))
     draw_costs(axes["a"], sampled)
     draw_bias(axes["b"], table[table.series == "relaxation"], "relaxation_time", "relaxation time")
