@@ -80,7 +80,7 @@ def test_the_version_is_that_of_the_citation() -> None:
 
 def test_the_papers_baths_are_the_defaults_of_the_programs() -> None:
     options = options_of_programs()["conductivity"]
-    assert [options[name]["default"] for name in BATHS] == pytest.approx(PAPERS_BATHS)
+    assert [options[name.replace("_", "-")]["default"] for name in BATHS] == pytest.approx(PAPERS_BATHS)
 
 
 @pytest.mark.parametrize(
