@@ -82,8 +82,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_costs(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots the cost of 1 % against N; of runs of one panel and size, the geometric mean. Open: without control
-    variates."""
+    """Plots the cost of 1 % against N; of runs of one program and size, the geometric mean. Open: gamma < N;
+    dotted: without control variates."""
     costs = ["cost_of_1_percent", "cost_without_control_variates"]
     for (program, gamma), part in table.groupby(["program", table.gamma == "N"]):
         marker, color = PROGRAMS[program]

@@ -17,6 +17,7 @@ from workflow.physics.run_parameters import mass
 TITLE = "Persistence probability against the mass ratio"
 UNITS = dict.fromkeys(("law", "deviation", "at_momentum"), "1")
 
+DASHED = style.DASHES[3]
 LOOKS = {
     "paper": style.points("o", style.BLUE, label=r"$n = 20$, random $\Pi$"),
     "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = 20$, $\Pi = 0$"),
@@ -30,7 +31,7 @@ def at_momentum(result: Result) -> float:
     particles."""
     sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])
     if abs(sigma) == 1:
-        return float(np.arccos(sigma) / np.pi)
+        return float(persistence_law(np.array(sigma)))
     energy = cells * result.parameters["particles_per_cell"] * float(result.parameters["temperature"])  # 2 E
     temperature = float(result["particle_energy"].mean + result["scatterer_energy"].mean)
     total_mass = cells * mass(result) + energy / temperature - cells
@@ -87,9 +88,9 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(part.sigma, 1e3 * part.deviation, 1e3 * part.mu_error, **look)
         inside = part[part.sigma.abs() < 1]
         expected = 1e3 * (inside.at_momentum - inside.law)
-        below.plot(inside.sigma, expected, color=look["color"], linestyle=(0, (3, 1.5)), zorder=1)
+        below.plot(inside.sigma, expected, color=look["color"], linestyle=DASHED, zorder=1)
     style.cross_out(above, table.sigma, table.mu, table.converged == NOT_REACHED)
-    above.plot([], [], color="grey", linestyle=(0, (3, 1.5)), label=r"at conserved $\Pi$")
+    above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")

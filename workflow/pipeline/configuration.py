@@ -205,7 +205,8 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
-    """Schema of the options of a program, of any if there are none, each with a value or a list of distinct values."""
+    """Schema of the options of a program, each with a value or a list of distinct values. Without options,
+    of a program that is not compiled, anything is valid."""
     if not options:
         return {"properties": {}}
     several = {"minItems": 1, "uniqueItems": True}

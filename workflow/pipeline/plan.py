@@ -82,9 +82,8 @@ class Run:
 @dataclass(frozen=True)
 class Panel:
     """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of
-    paper.yaml that the quality replaces, as `cells of rare`; reads: files and
-    folders that the script uses; beyond:
-    not of the paper, and made for the report only."""
+    paper.yaml that the quality replaces, as `cells of rare`; reads: files and folders that the script uses;
+    beyond: not of the paper, and made for the report only."""
 
     name: str
     script: str
