@@ -20,7 +20,8 @@ def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> Non
     result = load(tmp_path / "out.h5")
     assert result.parameters["seed"] == 7
     assert result.converged == "no target"
-    assert set(result.parameters) == set(options_of_programs()["persistence"])
+    options = options_of_programs()["persistence"]
+    assert set(result.parameters) == {option.replace("-", "_") for option in options}
     assert (result.parameters["sigma"], result.parameters["cells"]) == (0.25, 5)
     cost = json.loads((tmp_path / "out.cost.json").read_text())
     assert cost["cpu_seconds"] > 0

@@ -161,9 +161,9 @@ def cost_at(table: pd.DataFrame, gamma: str, largest: bool) -> str:
 
 def caption(table: pd.DataFrame) -> str:
     return f"""
-        (a) 1 % of κ costs {cost_at(table, "N", False)} and {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Points: deviation of κ
-        from a long run; dotted: its error, which more replicas lower; crossed out: not stationary. A longer relaxation lowers the deviation, a longer window both.
-        (d) Deviations over the target error: {rms_over_target(table)} at most (root mean square). (e) Kinetic equation. {ERRORS}"""
+        (a) 1 % of κ costs {cost_at(table, "N", False)}, {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Points: deviation of κ
+        from a long run; dotted: its error; crossed out: not stationary. A longer relaxation lowers the deviation, a longer window both. (d) Deviation over target:
+        {rms_over_target(table)} at most (root mean square). (e) Kinetic equation. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:

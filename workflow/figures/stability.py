@@ -131,24 +131,23 @@ def draw_partings(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def parted(table: pd.DataFrame) -> str:
-    """Where trajectories part: collisions between which the averages begin to differ, by N."""
-    texts = []
-    for cells, part in table.groupby("cells"):
-        apart = part[part.difference > 1e-9]
-        texts.append(
-            f"{scientific(apart.collisions.min(), 1)} (N = {cells})" if len(apart) else f"none (N = {cells})"
-        )
-    return ", ".join(texts)
+    """Where trajectories part: collisions after which the averages differ, by N, and by how many errors."""
+    apart = table[table.difference > 1e-9]
+    if not len(apart):
+        return f"do not part within {scientific(table.collisions.max(), 1)} collisions"
+    after = [
+        f"{scientific(part.collisions.min(), 1)} (N = {cells})" for cells, part in apart.groupby("cells")
+    ]
+    score = float((apart.difference / apart.relative_error / np.sqrt(2)).max())
+    return f"part after {', '.join(after)} collisions, averages by at most {score:.1f} errors"
 
 
 def caption(walks: pd.DataFrame, pairs: pd.DataFrame) -> str:
     longest = walks[walks.observation_time == walks.observation_time.max()].set_index("rule").energy_drift
-    after = pairs[pairs.difference > 1e-9]
-    score = (after.difference / after.relative_error / np.sqrt(2)).max() if len(after) else np.nan
     return f"""
         (a) In {scientific(walks.collisions.max())} collisions at σ = 0.3 the energy changes by {scientific(longest["elastic"])} as computed here, by {scientific(longest["printed"])} by the
-        paper's formula. (b) Next to σ = ±1. (c) Energy current over that of the limit; at γ = 10⁻³ a term of order γ is seen. (d) In two units of length trajectories part after
-        {parted(pairs)} collisions, averages by at most {float(score):.1f} errors (dotted). {ERRORS}"""
+        paper's formula. (b) Next to σ = ±1. (c) Energy current over that of the limit; at γ = 10⁻³ a term of order γ is seen. (d) In two units of length trajectories
+        {parted(pairs)} (dotted: one error). {ERRORS}"""
 
 
 @plots(f"rounding mass-ratio unit tripled {' '.join(LIMITS)}")
