@@ -16,10 +16,11 @@ if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
-from workflow.lib.files import format_os_error
+from workflow.lib.files import format_os_error, missing
 from workflow.pipeline.lock import lock_products
 from workflow.lib.identity import IDENTITY, ROOT
 from workflow.pipeline.plan import (
+    DEFAULT_QUALITY,
     REPORT,
     RESULT,
     data_of,
@@ -35,7 +36,7 @@ from workflow.pipeline.program import command_line, require_built, threads_of
 if not os.path.samefile(".", ROOT):
     sys.exit(f"{os.getcwd()} is not the project's folder: run snakemake in {ROOT}, without -d")
 clean()
-QUALITY = config.get("quality", "standard")
+QUALITY = config.get("quality", DEFAULT_QUALITY)
 if unknown := {*config} - {"quality", "panel"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality= or panel=")
 try:
@@ -47,8 +48,8 @@ try:
     FILES = {name: files_of(PLAN, name, QUALITY) for name in (*PLAN, REPORT)}
     JOBS = {name: rendering_of(PLAN, name, QUALITY).json for name in PLAN}
     if workflow.is_main_process:
-        runs = runs_of(PLAN, PANELS, QUALITY).items()
-        for program in {run.program for path, run in runs if not os.path.exists(path)}:
+        runs = runs_of(PLAN, PANELS, QUALITY)
+        for program in {runs[path].program for path in missing(runs)}:
             require_built(program)
         if not workflow.output_settings.dryrun:
             lock_products()

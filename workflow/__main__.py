@@ -12,19 +12,19 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable
 
 if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are imported: no traceback
 
-from workflow.lib.files import format_os_error
-from workflow.lib.identity import ROOT
+from workflow.lib.files import format_os_error, missing
+from workflow.lib.identity import ROOT, panel_of
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError, panel_names
 from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
+    DEFAULT_QUALITY,
     OVERRIDES,
     REPORT,
     Selection,
@@ -36,7 +36,7 @@ from workflow.pipeline.plan import (
     runs_of,
 )
 from workflow.pipeline.program import build
-from workflow.pipeline.records import SHORT, doubtful, panel_of
+from workflow.pipeline.records import SHORT, doubtful
 
 SELECTION = ("QUALITY", *map(str.upper, OVERRIDES))
 EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
@@ -53,7 +53,7 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "build": (),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
-DEFAULTS = {"QUALITY": "standard", "SAMPLE": "0.1", "PROFILE": "default"}
+DEFAULTS = {"QUALITY": DEFAULT_QUALITY, "SAMPLE": "0.1", "PROFILE": "default"}
 OF_MAKE = "CXX="  # an option of the build, which make passes as a variable
 DONE = {  # of the targets of Snakemake
     "figures": "The figures are in figures/{quality}. Next: make report {effort}",
@@ -162,9 +162,9 @@ def make(target: str, options: argparse.Namespace) -> int:
     """Makes what is missing: results, panels, report; with DRY=yes, lists it. After SEED and REPLICAS
     compares with the results of the quality. Raises ConfigurationError, OSError."""
     plan, quality, names = options.plan, options.quality, options.panels or [*options.plan]
-    files = {name: _missing(files_of(plan, name, quality)) for name in names}
-    results = _missing(runs_of(plan, names, quality))
-    pages = _missing(files_of(plan, REPORT, quality)) if target == "report" else []
+    files = {name: missing(files_of(plan, name, quality)) for name in names}
+    results = missing(runs_of(plan, names, quality))
+    pages = missing(files_of(plan, REPORT, quality)) if target == "report" else []
     if options.dry:
         print(
             "\n".join([*results, *(path for each in files.values() for path in each), *pages])
@@ -178,7 +178,7 @@ def make(target: str, options: argparse.Namespace) -> int:
         )
     status = simulate(names, options) if results else 0
     jobs = [rendering_of(plan, name, quality) for name in names if files[name]]
-    if ready := [job.json for job in jobs if not _missing(job.data)]:
+    if ready := [job.json for job in jobs if not missing(job.data)]:
         command = [".venv/bin/python", "-m", "workflow.lib.render", *ready]
         status = subprocess.run(command, check=False).returncode or status
     if status == 0 and (pages or target == "gallery"):
@@ -195,10 +195,6 @@ def make(target: str, options: argparse.Namespace) -> int:
 
             status = compare.main(options)
     return status
-
-
-def _missing(paths: Iterable[str]) -> list[str]:
-    return [path for path in paths if not os.path.exists(path)]
 
 
 def main() -> int:

@@ -47,7 +47,6 @@ PhasePoint ClosedDynamics::phase_point(double time) const {
 Invariants ClosedDynamics::invariants() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double root_mass = masses(rule_).root_mass();
-  const RuleProperties& conserved = rule_properties(chain_.rule.name);
   Invariants sum;
   for (const Flight& flight : queue_.flights()) {
     sum.energy += 0.5 * flight.velocity * flight.velocity;
@@ -59,8 +58,7 @@ Invariants ClosedDynamics::invariants() const {
     sum.momentum += root_mass * scatterer;
     sum.momentum_scale += root_mass * std::abs(scatterer);
   }
-  if (!conserved.conserves_energy) sum.energy = none;
-  if (!conserved.conserves_momentum || chain_.sigma == 1) sum.momentum = none;
+  if (!rule_properties(chain_.rule.name).conserves_momentum || chain_.sigma == 1) sum.momentum = none;
   return sum;
 }
 

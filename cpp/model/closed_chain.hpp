@@ -21,9 +21,8 @@ struct ClosedChain {
   bool deterministic() const { return gamma >= cells; }  // a particle scatters at every scatterer
 };
 
-/// Energy and momentum of a closed chain [eq. 4], with the scale of the momentum's error. What the collision
-/// rule does not conserve is NaN, and so is the momentum at sigma = 1, where the scatterers have infinite
-/// mass.
+/// Energy and momentum of a closed chain [eq. 4], with the scale of the momentum's error. The momentum is NaN
+/// if the collision rule does not conserve it, and at sigma = 1, where the scatterers have infinite mass.
 struct Invariants {
   double energy = 0;          // sum of u^2/2 + sum of U^2/2
   double momentum = 0;        // sum p + sum P

@@ -13,13 +13,6 @@ namespace lorentz {
 
 class Elastic;
 
-/// Distribution of (u, U) at a collision, weighted with the flux of particles, that the collision leaves
-/// invariant.
-enum class InvariantMeasure : std::uint8_t {
-  maxwellian,  // exp(-(u^2 + U^2)/2T) [eq. 8]
-  unknown,
-};
-
 /// A number on which a rule depends besides sigma: the option --RULE-NAME of every program with --rule.
 struct RuleOption {
   std::string_view name;
@@ -28,13 +21,12 @@ struct RuleOption {
   double low, high;              // range
 };
 
-/// What the programs need to know of a collision rule.
+/// What the programs need to know of a collision rule. Every rule conserves the energy u^2 + U^2, and leaves
+/// the measure exp(-(u^2 + U^2)/2T), weighted with the flux of particles, invariant [eq. 8].
 struct RuleProperties {
-  std::string_view name;         // of --rule
-  std::string_view description;  // for --help
-  bool conserves_energy;         // u^2 + U^2
-  bool conserves_momentum;       // p + P, for sigma < 1
-  InvariantMeasure invariant;
+  std::string_view name;                                         // of --rule
+  std::string_view description;                                  // for --help
+  bool conserves_momentum;                                       // p + P, for sigma < 1
   std::span<const RuleOption> options{};                         // arguments of its constructor, after sigma
   bool (*is_elastic)(std::span<const double> values) = nullptr;  // whether these options make it Elastic
   bool changes_neighbour = false;                                // NeighbourRule

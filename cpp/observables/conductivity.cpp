@@ -52,7 +52,7 @@ Group::Array current_per_rise(const Records& records, double cells, bool defined
   const double error = records.size() > 1 ? found.standard_error.front() : 0;
   const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
   return [=](TallyMeans mean) {
-    return std::vector{resolved ? -mean[tallies.energy_current][0] / rise(mean) * cells
+    return std::vector{resolved ? -mean[tallies.energy_current] / rise(mean) * cells
                                 : std::numeric_limits<double>::quiet_NaN()};
   };
 }
@@ -62,14 +62,14 @@ Group currents_and_conductivity(const OpenChain& chain) {
   Group group([](const Records& records) {
     return reduce_variance(records, {{tallies.measured(), tallies.controls()}});
   });
-  const auto element = [&](const char* name, const char* units, const char* description, Tally tally,
-                           std::size_t i) {
-    group.quantity(name, units, description, [=](TallyMeans mean) { return mean[tally][i]; });
+  group.quantity(tallies, tallies.energy_current);
+  group.quantity(tallies, tallies.particle_current);
+  const auto temperature = [&](const char* name, const char* description, std::size_t i) {
+    group.quantity(name, "temperature", description,
+                   [=](TallyMeans mean) { return mean[tallies.temperature][i]; });
   };
-  element("energy_current", "energy/time", "J_U, positive to the right", tallies.energy_current, 0);
-  element("particle_current", "1/time", "J_n, positive to the right", tallies.particle_current, 0);
-  element("temperature_first", "temperature", "<P^2>/M of the first scatterer", tallies.temperature, 0);
-  element("temperature_last", "temperature", "<P^2>/M of the last scatterer", tallies.temperature, 1);
+  temperature("temperature_first", "<P^2>/M of the first scatterer", 0);
+  temperature("temperature_last", "<P^2>/M of the last scatterer", 1);
   group.quantities({{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1)"}},
                    [cells = chain.cells, defined = reason_without_kappa(chain).empty()](
                        const Records& records) { return current_per_rise(records, cells, defined); });

@@ -248,8 +248,9 @@ Group spreading(const Tallies& tallies) {
   group.quantities(of_peak, [=](const Records& records) {
     PeakWindows windows = peak_windows(records, tallies.energy_difference, times.size());
     const std::vector<double> closed = ring_closed(records, tallies);
+    const bool significant = injected(records, tallies);
     for (std::size_t k = 0; k < times.size(); ++k)
-      if (closed[k] == 1 || !injected(records, tallies)) windows[k].reset();
+      if (closed[k] == 1 || !significant) windows[k].reset();
     return [=](TallyMeans mean) {
       const MovingPeak peak(mean[tallies.energy_difference], times, windows);
       std::vector<double> values = peak.values();

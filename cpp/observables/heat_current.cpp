@@ -11,16 +11,13 @@
 /// each.
 #include "observables/heat_current/heat_current.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <numeric>
 #include <span>
 
-#include "model/rules.hpp"
-#include "observables/heat_current/equilibrium_parameters.hpp"
-#include "program/errors.hpp"
+#include "observables/heat_current/parameters.hpp"
 #include "sampling/closed_run.hpp"
 #include "statistics/fit.hpp"
 
@@ -28,9 +25,7 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : EquilibriumParameters {
-  double fit_from = 16;
-};
+using Parameters = HeatCurrentParameters;
 
 struct Tallies : ClosedTallies {
   Axis time;
@@ -116,19 +111,8 @@ std::vector<Group> variances(const Parameters& parameters, const Tallies& tallie
   return {group};
 }
 
-/// Throws UsageError.
-void require_consistent(const Parameters& parameters) {
-  const std::vector<double>& times = parameters.times;
-  if (std::ranges::count_if(times, [&](double time) { return time >= parameters.fit_from; }) < 2)
-    throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
-  if (!draws_direction(parameters.ring.scattering.rule.name))
-    require_before_sound_returns(
-        parameters, std::ceil(2 * Sound::of(parameters).reach(times.back()) / parameters.ring.cell_length));
-}
-
 Study heat_current(const Parameters& parameters) {
   validate(parameters);
-  require_consistent(parameters);
   const Tallies tallies(parameters.times);
   return closed_study(parameters, tallies,
                       std::bind_front(observe, parameters, tallies, lags(parameters.times)),
@@ -141,6 +125,5 @@ int main(int argc, char** argv) {
   StudyProgram program("heat_current", "Heat that passes in a time in a closed chain in equilibrium");
   Parameters parameters;
   declare(program.options(), parameters);
-  program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });
 }

@@ -97,7 +97,7 @@ Study steady_profile(const Parameters& parameters) {
   const CellTallies tallies(chain.cells, bins);
   return stationary_study(
       parameters, tallies, [=] { return CellProfile(chain, window, bins); },
-      {profiles(tallies, bins.width())}, "energy_current_mean");
+      {profiles(tallies, bins.width())}, "temperature_scatterer");
 }
 
 }  // namespace

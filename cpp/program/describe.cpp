@@ -52,7 +52,8 @@ void set_values(Json& schema, const Option& option, const std::string&) {
 Json schema_of(const Option& option) {
   Json schema;
   std::visit([&](const auto* variable) { set_values(schema, option, *variable); }, option.variable);
-  schema["default"] = std::visit([](const auto& value) { return Json(value); }, option.default_value);
+  if (!option.required)
+    schema["default"] = std::visit([](const auto& value) { return Json(value); }, option.default_value);
   schema["description"] = option.help;
   if (!option.units.empty()) schema["units"] = option.units;
   schema["affects_results"] = option.role == Option::Role::result;

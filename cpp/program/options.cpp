@@ -126,12 +126,13 @@ Options::~Options() = default;
 void Options::add(Option option) {
   option.default_value = option.value();
   const std::string units = option.units.empty() || option.units == "1" ? "" : " [" + option.units + ']',
-                    value = as_text(option.default_value), text = option.help + units;
+                    value = as_text(option.default_value), text = option.help + units,
+                    initial = option.required ? "required" : "default " + value;
   if (option.is_flag())
     app_->add_flag(option.name, text);
   else
     app_->add_option(option.name, CLI::callback_t{},
-                     value.empty() ? text : fmt::format("{} ({}; default {})", text, option.allowed(), value))
+                     value.empty() ? text : fmt::format("{} ({}; {})", text, option.allowed(), initial))
         ->type_name("")
         ->take_all();
   options_.push_back(std::move(option));

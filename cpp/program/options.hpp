@@ -55,6 +55,7 @@ struct Option {
   std::string help;
   std::vector<std::string> words;  // choices of a text, or the word for none
   Role role;
+  bool required = false;           // has no default
   AttributeValue default_value{};  // set by Options
 
   bool is_flag() const { return std::holds_alternative<bool*>(variable); }
@@ -82,6 +83,10 @@ class Options {
   void integer(const std::string& name, Whole& value, Range range, const std::string& help,
                Role role = Role::result) {
     add({name, &value, range, "1", help, {}, role});
+  }
+  template <class Whole>
+  void required_integer(const std::string& name, Whole& value, Range range, const std::string& help) {
+    add({name, &value, range, "1", help, {}, Role::result, true});
   }
   /// A number, or a word, for which the value is none: --gamma N.
   void real_or_word(const std::string& name, std::optional<double>& value, Range range,

@@ -36,6 +36,16 @@ void note_signals() {
     if (::signal(number, note) == SIG_IGN && number == SIGHUP) ::signal(number, SIG_IGN);
 }
 
+/// The element with the largest relative error; one that is not defined comes first.
+std::size_t least_accurate(const Quantity& quantity) {
+  std::vector<double> errors;
+  for (std::size_t k = 0; k < quantity.mean.size(); ++k) {
+    const double error = quantity.standard_error[k] / std::abs(quantity.mean[k]);
+    errors.push_back(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
+  }
+  return static_cast<std::size_t>(std::ranges::max_element(errors) - errors.begin());
+}
+
 /// Thrown by a heartbeat to end a replica after another one has failed.
 struct Abandoned {};
 
@@ -49,9 +59,9 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
   constexpr auto runtime = Options::Role::runtime;
   options.integer("--replicas", replicas_, {1, 100'000'000},
                   "Independent replicas; not with a target error, which determines their number");
-  options.integer("--seed", seed_, {},
-                  "Key of all random streams; runs with the same seed have correlated results, so give each "
-                  "run of a scan its own; required");
+  options.required_integer("--seed", seed_, {},
+                           "Key of all random streams; runs with the same seed have correlated results, so "
+                           "give each run of a scan its own");
   options.real("--target-error", target_error_, non_negative, "1",
                fmt::format("Add replicas, {} at least, until the standard error of the target quantity, "
                            "relative to its mean, is below this with 95 % confidence; 0: no target",
@@ -89,8 +99,10 @@ std::vector<Description> StudyProgram::quantities() const {
   std::vector<Description> all;
   for (const Group& group : study_.groups)
     for (Description& what : group.descriptions()) all.push_back(std::move(what));
-  if (std::ranges::find(all, study_.target, &Description::name) == all.end())
+  const auto target = std::ranges::find(all, study_.target, &Description::name);
+  if (target == all.end())
     throw std::logic_error("the study has no quantity named as its target, " + study_.target);
+  target->description += " (the target quantity)";
   return all;
 }
 
@@ -133,7 +145,8 @@ ExitStatus StudyProgram::compute() try {
     in_threads(std::min(threads, wanted), [&] { measure(wanted); });
     Outcome outcome;
     in_threads(1, [&] { outcome = estimate(wanted); });
-    const bool constant = quantity_named(outcome.results, study_.target).standard_error.front() == 0;
+    const std::vector<double>& errors = quantity_named(outcome.results, study_.target).standard_error;
+    const bool constant = std::ranges::all_of(errors, [](double error) { return error == 0; });
     const bool last =
         outcome.convergence != Convergence::not_reached || constant || rule.next_look(wanted) > rule.most;
     const double excess = outcome.achieved_error / target_error_;
@@ -250,13 +263,13 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
   }
   for (const Group& group : study_.groups)
     for (Quantity& quantity : group.estimate(records)) outcome.results.push_back(std::move(quantity));
+  const Quantity& quantity = quantity_named(outcome.results, study_.target);
+  const std::size_t k = least_accurate(quantity);
   const auto relative_error = [&](const Results& results) {
-    const Quantity& quantity = quantity_named(results, study_.target);
-    const double mean = quantity.mean.front(), error = quantity.standard_error.front();
+    const Quantity& each = quantity_named(results, study_.target);
+    const double mean = each.mean[k], error = each.standard_error[k];
     return error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
   };
-  const Quantity& quantity = quantity_named(outcome.results, study_.target);
-  const double mean = quantity.mean.front();
   outcome.achieved_error = relative_error(outcome.results);
   outcome.plain_error =
       quantity.control_variates
@@ -264,7 +277,8 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
           : none;
   if (target_error_ == 0)
     outcome.convergence = Convergence::no_target;
-  else if (std::isfinite(mean) && StoppingRule::reached(replicas, outcome.achieved_error / target_error_))
+  else if (std::isfinite(quantity.mean[k]) &&
+           StoppingRule::reached(replicas, outcome.achieved_error / target_error_))
     outcome.convergence = Convergence::reached;
   return outcome;
 }
@@ -272,8 +286,10 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
 /// Reports the target quantity, and how uncertain its error is if the replicas are few.
 void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
   const Quantity& quantity = quantity_named(outcome.results, study_.target);
-  const double mean = quantity.mean.front(), error = quantity.standard_error.front();
-  std::string line = fmt::format("{}: {} = {}", counted(replicas), study_.target, with_error(mean, error));
+  const std::size_t k = least_accurate(quantity);
+  const double mean = quantity.mean[k], error = quantity.standard_error[k];
+  const std::string name = quantity.mean.size() > 1 ? fmt::format("{}[{}]", study_.target, k) : study_.target;
+  std::string line = fmt::format("{}: {} = {}", counted(replicas), name, with_error(mean, error));
   if (outcome.convergence == Convergence::not_reached) line += ", not reached";
   if (std::isnan(mean))
     line += ", not defined by these replicas";

@@ -28,7 +28,7 @@ struct Study {
   TallySchema tallies;
   std::function<std::uint64_t(const Replica&, TallySums&)> sample;  // of one replica; returns its events
   std::vector<Group> groups;
-  std::string target;  // quantity of --target-error
+  std::string target;  // quantity of --target-error; of an array, its least accurate element
   /// Lines to print after the results: what restricts their meaning, and what to do. None if empty.
   std::function<std::vector<std::string>(const Results&)> remarks{};
 };
@@ -63,7 +63,7 @@ class StudyProgram {
   Program program_;
 
   // Options. A run has `replicas_` replicas or, with a target error, as many as the StoppingRule needs.
-  std::uint64_t replicas_ = 32, seed_ = 1;
+  std::uint64_t replicas_ = 32, seed_{};
   std::optional<std::uint32_t> threads_{};  // none: one for each processor
   double target_error_ = 0;                 // 0: none
   double target_scale_ = 0;                 // 0: the target quantity's mean

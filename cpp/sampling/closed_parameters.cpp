@@ -49,15 +49,11 @@ void validate(const ClosedParameters& parameters) {
   validate(parameters.ring.scattering);
   const ClosedChain chain = parameters.chain();
   const RuleProperties& rule = parameters.ring.scattering.rule.properties();
-  if (!parameters.fugacity)
-    require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
-  else if (rule.invariant == InvariantMeasure::maxwellian)
+  if (parameters.fugacity)
     require_memory(chain.cells * mean_number(chain, parameters.stationary_measure()),
                    "--cells, --fugacity, --cell-length");
   else
-    throw UsageError(fmt::format(
-        "--rule {}: its stationary state, in which a run starts, is not known. Choose another rule.",
-        rule.name));
+    require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
   if (parameters.zero_total_momentum && !rule.conserves_momentum)
     throw UsageError(
         fmt::format("--zero-total-momentum: the rule {} does not conserve momentum, so that it does not "

@@ -51,7 +51,7 @@ Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
     // Half of the level for each, NaN left out.
     const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);
     const Estimate gain = jackknife(records, [=](TallyMeans mean) {
-      return std::vector{mean[tallies.particles][0] / (chain.left.rate + chain.right.rate)};
+      return std::vector{mean[tallies.particles] / (chain.left.rate + chain.right.rate)};
     });
     const double share = gain.mean.front(), error = gain.standard_error.front();
     const bool tested = !std::isnan(p_value) && error <= tolerated_gain,

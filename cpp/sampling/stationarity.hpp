@@ -23,14 +23,15 @@ namespace lorentz {
 /// slow ones accumulate [eq. 25]; rates of crossings are too low by about this number.
 struct DriftTallies {
   Axis scatterer{"scatterer", "1", "First, middle, last", {0, 1, 2}};
-  Tally energy_current, particle_current, temperature, energy, particles, injection;
+  ScalarTally energy_current, particle_current, energy, particles;
+  Tally temperature, injection;
 
   explicit DriftTallies(TallySchema& schema)
       : energy_current(schema.tally("energy_current_drift", "energy/time", "Change of J_U")),
         particle_current(schema.tally("particle_current_drift", "1/time", "Change of J_n")),
-        temperature(schema.tally("temperature_drift", {scatterer}, "temperature", "Change of <P^2>/M")),
         energy(schema.tally("energy_gain", "energy/time", "Energy that enters minus energy that leaves")),
         particles(schema.tally("particle_gain", "1/time", "Particles that enter minus those that leave")),
+        temperature(schema.tally("temperature_drift", {scatterer}, "temperature", "Change of <P^2>/M")),
         injection(schema.tally("injection_drift", {InjectionControls::axis()}, "1",
                                "Change of the numbers, momenta and energies injected; mean 0")) {}
 
@@ -70,10 +71,10 @@ class Drift {
 
   void record(const DriftTallies& tallies, TallySums& sums) const {
     const double half = halves_.length();
-    sums[tallies.energy_current][0] = (openings_[1].energy - openings_[0].energy) / half;
-    sums[tallies.particle_current][0] = (openings_[1].particles - openings_[0].particles) / half;
-    sums[tallies.energy][0] = energy_gain_ / (2 * half);
-    sums[tallies.particles][0] = particle_gain_ / (2 * half);
+    sums[tallies.energy_current] = (openings_[1].energy - openings_[0].energy) / half;
+    sums[tallies.particle_current] = (openings_[1].particles - openings_[0].particles) / half;
+    sums[tallies.energy] = energy_gain_ / (2 * half);
+    sums[tallies.particles] = particle_gain_ / (2 * half);
     for (std::size_t i = 0; i < scatterers_.size(); ++i)
       sums[tallies.temperature][i] = (squares_[i].sums()[1] - squares_[i].sums()[0]) / half;
     const auto first = injections_[0].deviations(chain_, half),

@@ -10,7 +10,8 @@ from workflow.pipeline.described import described
 def test_the_schema_of_every_option_is_valid_and_accepts_the_default(program: str) -> None:
     options = described()[program]["options"]
     Draft202012Validator.check_schema(options)
-    defaults = {name: schema["default"] for name, schema in options["properties"].items()}
+    defaults = {name: one["default"] for name, one in options["properties"].items() if "default" in one}
+    assert {*options["properties"]} - {*defaults} <= {"seed"}
     assert Draft202012Validator(options).is_valid(defaults)
     assert not Draft202012Validator(options).is_valid({"other": 1})
     assert all(schema["allowed"] for schema in options["properties"].values())

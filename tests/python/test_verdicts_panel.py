@@ -17,7 +17,7 @@ from tests.python.claim_truths import CASES
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.claims.data import Data
-from workflow.claims.judge import Judgement, function_of, read_claims
+from workflow.claims.judge import Judgement, function_of, of_release, read_claims
 from workflow.claims.verdict import Band, Estimate, Verdict
 from workflow.figures import verdicts
 from workflow.lib import style
@@ -206,5 +206,5 @@ def test_only_other_qualities_depend_on_the_numbers_of_the_release() -> None:
     """Detected mistake: the gallery, which writes the numbers, makes its own picture stale."""
     assert NUMBERS not in load_plan("paper")["verdicts"].reads
     assert NUMBERS in load_plan("standard")["verdicts"].reads
-    assert verdicts.of_release("paper") == {}
-    assert set(verdicts.of_release("standard").values()) <= {"reproduced", "contradicted", "undecided"}
+    assert of_release("paper") == {}
+    assert set(of_release("standard").values()) <= {"reproduced", "contradicted", "undecided"}

@@ -10,9 +10,9 @@ from PIL import Image
 
 from tests.python.conftest import ROOT
 from workflow.claims.judge import judge_all
+from workflow.lib.identity import RELEASE as QUALITY
 from workflow.lib.job import Job
 from workflow.lib.save import reduced
-from workflow.pipeline.plan import RELEASE as QUALITY
 from workflow.pipeline.plan import Run, load_plan, with_used
 from workflow.report import planned, write
 

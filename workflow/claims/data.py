@@ -7,6 +7,7 @@ import numpy as np
 
 from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.fit import PowerLaw, fit_power, local_exponents
+from workflow.lib.identity import panel_of
 from workflow.lib.load import Index, Result
 
 
@@ -20,7 +21,7 @@ class Data:
     def __init__(self, results: Iterable[Result] = ()) -> None:
         self.by_panel: dict[str, list[Result]] = defaultdict(list)
         for result in results:
-            self.by_panel[result.path.parent.name].append(result)
+            self.by_panel[panel_of(result.path)].append(result)
 
     def results(self, panel: str, *series: str, **parameters: object) -> list[Result]:
         """The results of series of a panel with these parameters. Other series, as those of the user, do not

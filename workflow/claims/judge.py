@@ -12,7 +12,7 @@ import pandas as pd
 from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.claims.data import Claim, Data, MissingError
 from workflow.claims.verdict import Band, Outcome, Verdict, level_of_each
-from workflow.lib.identity import ROOT
+from workflow.lib.identity import NUMBERS, ROOT, states_release
 from workflow.lib.load import FormatError
 
 CLAIMS_FILE = "data/claims.csv"
@@ -95,3 +95,11 @@ def changed(judgements: Sequence[Judgement], factor: float) -> list[tuple[Judgem
     verdict."""
     others = [(one, replace(one.verdict, band=one.verdict.band.wider(factor)).outcome) for one in judgements]
     return [(one, outcome) for one, outcome in others if outcome is not one.verdict.outcome]
+
+
+def of_release(quality: str, root: Path = ROOT) -> dict[tuple[str, str], str]:
+    """Verdicts of the release by claim and kind, for other qualities; empty without a release."""
+    if not states_release(quality, root):
+        return {}
+    table = pd.read_csv(root / NUMBERS).drop_duplicates(["claim", "kind"])
+    return dict(zip(zip(table.claim, table.kind, strict=True), table.claim_verdict, strict=True))

@@ -14,7 +14,8 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import ERRORS
 from workflow.lib.figure import Parts
-from workflow.lib.load import FormatError, Result, cpu_seconds
+from workflow.lib.identity import panel_of
+from workflow.lib.load import FormatError, Result, cost_file, cpu_seconds
 
 TITLE = "Accuracy against time"
 UNITS = {"cpu_seconds": "second", "cost_of_1_percent": "second", "cost_without_control_variates": "second"}
@@ -46,8 +47,9 @@ def seconds(result: Result) -> float:
     """CPU time of a run. Raises FormatError if the file of its cost is missing."""
     time = cpu_seconds(result.path)
     if time is None:
-        path = result.path.with_suffix(".cost.json")
-        raise FormatError(f"{path} is missing or damaged: remove {result.path} and make it again")
+        raise FormatError(
+            f"{cost_file(result.path)} is missing or damaged: remove {result.path} and make it again"
+        )
     return time
 
 
@@ -57,7 +59,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         origin, time = result.provenance, seconds(result)
-        row = {"panel": result.path.parent.name, "series": result.series, "program": origin["program"]}
+        row = {"panel": panel_of(result.path), "series": result.series, "program": origin["program"]}
         row |= {"cells": result.parameters.get("cells"), "gamma": str(result.parameters.get("gamma"))}
         row |= {
             name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")

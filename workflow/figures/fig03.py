@@ -1,7 +1,6 @@
 """Fig. 3: momentum distribution of the particles at both ends, by the kinetic equation.
 
 Below, each half over the Gaussian of its own rate and second moment, also for baths of equal temperatures.
-The table has also the case sigma = 0, whose halves are Gaussian.
 """
 
 from collections.abc import Sequence
@@ -16,6 +15,7 @@ from workflow.lib.caption import baths, format_number, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
+from workflow.physics.fluxes import SHOWN_MOMENTA
 
 TITLE = "Momentum distribution of the particles at both ends, by the kinetic equation"
 UNITS = {"gaussian": "1/(time momentum)"}
@@ -83,9 +83,7 @@ def draw(results: Sequence[Result]) -> Parts:
         draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
-    above.set(
-        ylabel="$F(p, x)$", xlim=(-run_parameters.SHOWN_MOMENTA, run_parameters.SHOWN_MOMENTA), ylim=(0, None)
-    )
+    above.set(ylabel="$F(p, x)$", xlim=(-SHOWN_MOMENTA, SHOWN_MOMENTA), ylim=(0, None))
     style.second_axis(above, 1 / run_parameters.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
     below.plot([], [], color="grey", linestyle="dotted", label=r"$T_L = T_R$, $\nu_L > \nu_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")

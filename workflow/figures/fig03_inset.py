@@ -16,13 +16,12 @@ from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, at_zero, deviations
+from workflow.physics.fluxes import MEAN_FIELD, SHOWN_MOMENTA, SIMULATION, at_zero, deviations
 
 TITLE = "Deviation of finite chains from the kinetic equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
 UNITS |= {"absolute_as_printed": "1/momentum"}
 
-SHOWN = 45  # largest momentum that is plotted
 LOWEST, HIGHEST = 7e-5, 0.08  # range of the deviations that are plotted
 LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
 MARKERS = ["o", "s", "^", "D"]  # one for each N
@@ -68,7 +67,7 @@ def draw_end(axes: Axes, table: pd.DataFrame, sign: int, title: str) -> None:
         axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look)
         axes.plot(line.momentum, 1e3 * line.deviation, color=color, linestyle=dashes, linewidth=0.8)
     axes.axhline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", title=title, xlim=sorted((0, sign * SHOWN)))
+    axes.set(xlabel="momentum $p$", title=title, xlim=sorted((0, sign * SHOWN_MOMENTA)))
 
 
 def draw_decay(axes: Axes, table: pd.DataFrame) -> None:

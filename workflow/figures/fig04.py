@@ -19,7 +19,7 @@ from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
-from workflow.physics.fluxes import at
+from workflow.physics.fluxes import SHOWN_MOMENTA, at
 
 UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
 
@@ -87,7 +87,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
 def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     for end, part in table.groupby("x", sort=False):
         _, color, dashes, marker = ENDS[end]
-        for half in halves(part[part.momentum.abs() < run_parameters.SHOWN_MOMENTA]):
+        for half in halves(part[part.momentum.abs() < SHOWN_MOMENTA]):
             unit = table.kinetic.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
             look |= {"elinewidth": 0.6, "linewidth": 0.6}
@@ -98,7 +98,7 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(
         xlabel="momentum $p$",
         ylabel=r"$F_N - F$ / % of max $F$",
-        xlim=(-run_parameters.SHOWN_MOMENTA, run_parameters.SHOWN_MOMENTA),
+        xlim=(-SHOWN_MOMENTA, SHOWN_MOMENTA),
     )
 
 
@@ -173,7 +173,7 @@ def draw(results: Sequence[Result]) -> Parts:
         figsize=(2 * style.COLUMN, 1.6 * style.HEIGHT),
         height_ratios=[1.7, 1],
     )
-    draw_distribution(panels["main"], unequal, run_parameters.SHOWN_MOMENTA)
+    draw_distribution(panels["main"], unequal, SHOWN_MOMENTA)
     draw_distribution(panels["near"], unequal, NEAR)
     style.second_axis(panels["main"], 1 / run_parameters.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)

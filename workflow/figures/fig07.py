@@ -1,12 +1,10 @@
 """Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with zero
 total momentum.
 
-The mean square displacement of the centre of mass is the part due to drift. Several sizes show how it falls
-with the number of cells.
+The mean square displacement of the centre of mass is the part due to drift.
 """
 
 from collections.abc import Sequence
-from itertools import cycle
 
 import numpy as np
 import pandas as pd
@@ -23,12 +21,7 @@ UNITS = {"fraction": "1", "slope_to_next": "1"}
 GUIDED = 100  # last time over the first time of the guides
 APART = 3  # factor between a guide and the last point
 
-ZERO = style.points("s", style.VERMILLION, "white")
-RANDOM = [
-    ("o", style.BLUE),
-    ("^", style.SKY),
-    ("D", style.GREEN),
-]  # marker and colour by number of cells, in ascending order
+LOOKS = {False: style.points("o", style.BLUE), True: style.points("s", style.VERMILLION, "white")}
 
 
 def zero(result: Result) -> bool:
@@ -64,22 +57,19 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
         {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. (b) Exponents are local. {ERRORS}"""
 
 
-@plots("all zero-momentum size")
+@plots("all zero-momentum")
 def draw(results: Sequence[Result]) -> Parts:
-    results = sorted(results, key=lambda result: (zero(result), cells(result)))
+    results = sorted(results, key=zero)
     tables = [tabulate(result) for result in results]
     random = tables[0]
     time = random.time
     last = float(time.iloc[-1])
     window = (last / 10 ** results[0].parameters["fit_decades"], last)
     figure, (above, below) = style.stacked(2, 1, height=1.8)
-    shapes = cycle(RANDOM)
     for result, table in zip(results, tables, strict=True):
-        look = ZERO if zero(result) else style.points(*next(shapes))
+        look = LOOKS[zero(result)]
         name = f"$N = {cells(result)}$" + (", zero total momentum" if zero(result) else "")
-        every = slice(None) if cells(result) == cells(results[0]) else slice(None, None, 2)
-        shown = table.iloc[every]
-        above.errorbar(shown.time, shown.variance, shown.variance_error, label=name, **look)
+        above.errorbar(table.time, table.variance, table.variance_error, label=name, **look)
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):

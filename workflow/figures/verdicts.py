@@ -16,11 +16,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from workflow.claims.data import Data
-from workflow.claims.judge import Judgement, judge_all, short
+from workflow.claims.judge import Judgement, judge_all, of_release, short
 from workflow.claims.verdict import Band, Outcome
 from workflow.lib import style
 from workflow.lib.figure import Parts
-from workflow.lib.identity import NUMBERS, RELEASE, ROOT
 from workflow.lib.load import Result
 
 TITLE = "Verdicts on the statements of the paper"
@@ -37,16 +36,6 @@ LOOKS = {
     Outcome.UNDECIDED: ("D", "0.45"),
 }
 
-Verdicts = Mapping[tuple[str, str], str]  # by claim and kind
-
-
-def of_release(quality: str) -> Verdicts:
-    """Verdicts of the release, for other qualities; empty without a release."""
-    if quality == RELEASE or not (ROOT / NUMBERS).exists():
-        return {}
-    table = pd.read_csv(ROOT / NUMBERS).drop_duplicates(["claim", "kind"])
-    return dict(zip(zip(table.claim, table.kind, strict=True), table.claim_verdict, strict=True))
-
 
 def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
     """Origin and unit of the scale. half: half the width of the interval, the unit of a band with one edge
@@ -58,8 +47,9 @@ def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
     return edge - side * unit, unit
 
 
-def tabulate(judgements: Sequence[Judgement], release: Verdicts) -> pd.DataFrame:
-    """One row per row of the claims, in the order of the figures; low, high: ends of the interval."""
+def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], str]) -> pd.DataFrame:
+    """One row per row of the claims, in the order of the figures; low, high: ends of the interval; release:
+    verdicts of the release, by claim and kind."""
     rows = []
     for row, verdict in ((one.row, one.verdict) for one in judgements):
         number, band = verdict.decisive if verdict.numbers else None, verdict.band

@@ -26,7 +26,6 @@ BATHS = ("nu_left", "nu_right", "temperature_left", "temperature_right")
 PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
 RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
-BASE = 10
 FEW = 3  # runs that are named one by one
 DOUBTS = {NOT_STATIONARY: "Not stationary", NOT_TESTED: "With too few replicas to test whether stationary"}
 ERRORS = "Bars show standard errors."
@@ -116,4 +115,4 @@ def scientific(value: float, digits: int = 2) -> str:
 
 def power_of_ten(power: int) -> str:
     """The power as text: 10⁻¹⁵."""
-    return f"{BASE}{str(power).translate(SUPERSCRIPTS)}"
+    return f"10{str(power).translate(SUPERSCRIPTS)}"

@@ -1,8 +1,13 @@
-"""Atomic writing, and errors of the system in one line."""
+"""Missing files, atomic writing, and errors of the system in one line."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+
+
+def missing(paths: Iterable[str]) -> list[str]:
+    """The paths at which there is nothing."""
+    return [path for path in paths if not os.path.exists(path)]
 
 
 def write_atomically(contents: Mapping[Path, bytes]) -> None:

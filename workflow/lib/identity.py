@@ -51,6 +51,21 @@ def named_identity(path: Path | str) -> str:
     return named[1] if named else ""
 
 
+def panel_of(result: Path | str) -> str:
+    """The panel to which a result belongs."""
+    return Path(result).parent.name
+
+
+def run_of(result: Path | str) -> str:
+    """The name of the run of a result."""
+    return re.sub(rf"\.{IDENTITY}$", "", Path(result).stem)
+
+
+def record_name(product: str, identity: str) -> str:
+    """Name of the record of a panel or of the report."""
+    return f"{product}.{identity}.json"
+
+
 def siblings(path: Path | str) -> list[Path]:
     """Files that differ from a path at most in the identity, the newest first."""
     pattern = Path(path).name.replace(named_identity(path), DIGITS * "[0-9a-f]")
@@ -78,3 +93,8 @@ def content_hash(path: str, root: Path = ROOT) -> str:
     kept = [name for name in names if not name.endswith((".pyc", "~")) and "/." not in name]
     lines = [f"{name} {sha256((root / name).read_bytes())}\n" for name in kept]
     return sha256("".join(lines).encode())
+
+
+def states_release(quality: str, root: Path = ROOT) -> bool:
+    """Whether figures and report of a quality also state the verdicts of the release."""
+    return quality != RELEASE and (root / NUMBERS).exists()

@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from workflow.lib.identity import IDENTITY, named_identity, result_identity
+from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of
 from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
 
@@ -115,8 +115,8 @@ class Result:
 
     @property
     def run(self) -> str:
-        """Name of the run: the file name without identity."""
-        return re.sub(rf"\.{IDENTITY}$", "", self.path.stem)
+        """Name of the run."""
+        return run_of(self.path)
 
     @property
     def series(self) -> str:
@@ -164,9 +164,8 @@ class Result:
 
     @property
     def usable(self) -> bool:
-        """Whether the run was stationary and did not miss its target error. Raises FormatError without a
-        test of stationarity."""
-        return bool(self["stationary"].mean.size and not self.doubts)
+        """Whether nothing makes the numbers doubtful."""
+        return not self.doubts
 
 
 def load(path: Path | str) -> Result:
@@ -281,8 +280,13 @@ def _quantity(parts: dict[str, h5py.Dataset]) -> Quantity:
     )
 
 
+def cost_file(result: Path) -> Path:
+    """The file of the cost, beside the result."""
+    return result.with_suffix(".cost.json")
+
+
 def cpu_seconds(result: Path) -> float | None:
-    """CPU time of a result, from the cost file beside it; None if that is missing or damaged."""
+    """CPU time of a result; None if the file of its cost is missing or damaged."""
     with suppress(OSError, ValueError, KeyError):
-        return float(json.loads(result.with_suffix(".cost.json").read_text())["cpu_seconds"])
+        return float(json.loads(cost_file(result).read_text())["cpu_seconds"])
     return None

@@ -25,7 +25,7 @@ from workflow.lib.columns import TableError, as_csv, inherited
 from workflow.lib.figure import Plot, TheoryError
 from workflow.lib.identity import ROOT, SHARED, panel_identity, sources_of_panel
 from workflow.lib.job import Job
-from workflow.lib.load import FormatError, Result, load
+from workflow.lib.load import FormatError, Result, cost_file, load
 from workflow.lib.save import FORMATS, Parents, Text, save
 from workflow.lib.units import UnitsError
 
@@ -55,7 +55,7 @@ def render(job: Job) -> None:
     script = import_module(f"workflow.figures.{job.script}")
     style.apply()
     figure, table, caption = script.draw(results)
-    costs = [path.with_suffix(".cost.json") for path in data]
+    costs = [*map(cost_file, data)]
     require_declared(job.panel, Path(str(script.__file__)), [*data, *costs, *map(Path, job.reads)])
     units = getattr(script, "UNITS", {})
     errors = {f"{column}_error": text for column, text in units.items()}

@@ -21,7 +21,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from workflow.lib.files import write_atomically
-from workflow.lib.identity import FORMER, ROOT, identity_line, sha256, siblings
+from workflow.lib.identity import FORMER, ROOT, identity_line, record_name, sha256, siblings
 
 CREATOR = "lorentz-gas"
 FORMATS = ("pdf", "png", "svg")
@@ -82,7 +82,7 @@ def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], reco
     moves to FORMER, where provenance finds it. Raises OSError."""
     record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
     text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
-    path = stem.with_name(f"{stem.name}.{identity}.json")
+    path = stem.with_name(record_name(stem.name, identity))
     for former in (sibling for sibling in siblings(path) if sibling != path):
         archived = ROOT / FORMER / stem.parent.name / former.name
         archived.parent.mkdir(parents=True, exist_ok=True)

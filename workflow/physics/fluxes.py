@@ -10,6 +10,7 @@ from workflow.lib.load import Quantity, Result
 from workflow.physics import run_parameters
 
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
+SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
 
 
 def at(quantity: Quantity, x: float) -> np.ndarray:

@@ -5,8 +5,6 @@ from collections.abc import Sequence
 
 from workflow.lib.load import Result
 
-SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
-
 
 def both_rates(result: Result) -> float:
     """ν_L + ν_R. Divided by it, the flux has an integral of about 1, as in the paper."""

@@ -11,14 +11,15 @@ from typing import Any
 
 from workflow.lib.identity import (
     NUMBERS,
-    RELEASE,
     ROOT,
     SHARED,
     content_hash,
     identity,
     panel_identity,
+    record_name,
     result_identity,
     sources_of_panel,
+    states_release,
 )
 from workflow.lib.job import Job
 from workflow.lib.suggestion import suggestion
@@ -40,6 +41,7 @@ FIGURES = "figures"
 KINDS = ("pdf", "png", "svg", "csv")  # files of a panel
 REPORT = "report"  # a product with a record, as a panel
 QUALITIES = ("smoke", "standard", "paper")
+DEFAULT_QUALITY = "standard"
 REPORT_SOURCES = (
     "workflow/claims",
     "workflow/report",
@@ -141,14 +143,10 @@ class Selection:
         """Options of a replicated run with its effort as options of the program, and its seed. names: of
         panel and run, or of the panel alone, from which the seed follows; scale: reference value of the
         error where the target may be 0."""
-        own = {key: value for key, value in options.items() if key not in ("replicas", "error")}
-        replicas, error = options.get("replicas"), options.get("error")
-        if self.replicas is not None or self.error is not None:
-            replicas, error = self.replicas, self.error
-        if error is None:
-            own["replicas"] = replicas
-        else:
-            own["target-error"] = error
+        given = {key: value for key in ("replicas", "error") if (value := getattr(self, key)) is not None}
+        own = _merged(options, given)
+        if "error" in own:
+            own["target-error"] = own.pop("error")
             own |= {} if scale is None else {"target-scale": scale}
         return own | {"seed": seed_of(names if self.seed is None else f"{names}/{self.seed}")}
 
@@ -241,11 +239,6 @@ def sources_of(panel: Panel) -> dict[str, str]:
         ) from error
 
 
-def states_release(quality: str) -> bool:
-    """Whether figures and report of a quality also state the verdicts of the release."""
-    return quality != RELEASE and (ROOT / NUMBERS).exists()
-
-
 def stem_of(name: str, quality: str) -> str:
     """Path of the files of a panel or of the report, without suffix."""
     return f"{FIGURES}/{quality}/{name}"
@@ -254,7 +247,7 @@ def stem_of(name: str, quality: str) -> str:
 def record_of(plan: dict[str, Panel], name: str, quality: str) -> str:
     """Path of the record of a panel or of the report, which has its present identity. Raises
     ConfigurationError, OSError."""
-    return f"{stem_of(name, quality)}.{identity_of(plan, name, quality)}.json"
+    return f"{FIGURES}/{quality}/{record_name(name, identity_of(plan, name, quality))}"
 
 
 def files_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
@@ -299,7 +292,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
-            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(chosen.items()))])
+            run = "_".join([series, *(f"{key}={value}" for key, value in sorted(chosen.items()))])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = (
@@ -312,8 +305,3 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection:
     reads = tuple(path for path in reads if path != NUMBERS or states_release(selection.name))
     beyond = panel.get("beyond", False)
     return Panel(name, panel.get("script", name), tuple(runs), uses, tuple(replaced), reads, beyond)
-
-
-def _in_name(value: object) -> str:
-    """Value as part of a file name: 1perN for 1/N."""
-    return str(value).replace("/", "per")

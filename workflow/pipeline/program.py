@@ -23,8 +23,10 @@ class ProgramError(ValueError):
 
 
 def is_built(program: str) -> bool:
-    """Whether a program starts and states the hash of its present sources. Neither times nor folders
-    decide."""
+    """Whether a program is described, starts and states the hash of its present sources. Neither times nor
+    folders decide."""
+    if not (DESCRIPTIONS / f"{program}.json").is_file():
+        return False
     try:
         done = subprocess.run([PROGRAMS / program, "--version"], capture_output=True, text=True, check=False)
     except OSError:
@@ -34,10 +36,9 @@ def is_built(program: str) -> bool:
 
 def require_built(program: str) -> None:
     """Raises BuildError."""
-    if not ((PROGRAMS / program).is_file() and (DESCRIPTIONS / f"{program}.json").is_file()):
-        raise BuildError(f"build/bin/{program} is missing: run make build")
     if not is_built(program):
-        raise BuildError(f"build/bin/{program} is not built from the present sources: run make build")
+        state = "not built from the present sources" if (PROGRAMS / program).is_file() else "missing"
+        raise BuildError(f"build/bin/{program} is {state}: run make build")
 
 
 def build() -> list[str]:
@@ -46,8 +47,7 @@ def build() -> list[str]:
     CalledProcessError."""
 
     def unbuilt() -> list[str]:
-        described = {path.stem for path in DESCRIPTIONS.glob("*.json")}
-        return [name for name in programs() if not (is_built(name) and name in described)]
+        return [name for name in programs() if not is_built(name)]
 
     missing = unbuilt()
     if missing:

@@ -6,7 +6,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.identity import named_identity
 from workflow.pipeline.plan import Panel, record_of
 
 SHORT = ("accuracy",)  # panels with runs that are too short on purpose
@@ -26,13 +25,3 @@ def doubtful(plan: dict[str, Panel], names: Iterable[str], quality: str) -> dict
     for name in names:
         found |= read_record(record_of(plan, name, quality)).get("doubts", {})
     return found
-
-
-def panel_of(path: str) -> str:
-    """The panel to which a result belongs."""
-    return Path(path).parent.name
-
-
-def run_of(path: str) -> str:
-    """The name of the run of a result, without its identity."""
-    return Path(path).name.split(f".{named_identity(path)}")[0]

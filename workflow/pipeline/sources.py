@@ -12,6 +12,7 @@ import re
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 CPP = Path(__file__).resolve().parents[2] / "cpp"
 FLAGS = "flags.cmake"
@@ -36,6 +37,11 @@ def source_hash(program: str, cpp: Path = CPP) -> str:
         f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if owner(path) in ("", program)
     ]
     return sha256("".join(lines))
+
+
+def sources_changed(provenance: dict[str, Any]) -> bool:
+    """Whether a result is of other sources of its program."""
+    return bool(provenance["source_hash"] != source_hash(provenance["program"]))
 
 
 def programs(cpp: Path = CPP) -> list[str]:

@@ -15,11 +15,11 @@ from typing import Any
 import jinja2
 import pandas as pd
 
-from workflow.claims.judge import KINDS, Judgement, changed, judge_all
-from workflow.claims.verdict import Estimate, Outcome
+from workflow.claims.judge import KINDS, Judgement, changed, judge_all, of_release
+from workflow.claims.verdict import Outcome
 from workflow.lib.columns import TableError, require_whole
 from workflow.lib.files import format_os_error, write_atomically
-from workflow.lib.identity import NUMBERS, RELEASE, ROOT, identity_line
+from workflow.lib.identity import NUMBERS, ROOT, identity_line, panel_of
 from workflow.lib.load import FormatError, cpu_seconds
 from workflow.lib.save import commit, reduced, write_product
 from workflow.pipeline.configuration import ConfigurationError
@@ -52,7 +52,7 @@ def rendered(judgements: Sequence[Judgement], data: Planned, *, release: bool) -
         keep_trailing_newline=True,
     )
     environment.filters["typeset"] = typeset.typeset
-    found = {} if release or data.quality == RELEASE else of_release(data.root)
+    found = {} if release else of_release(data.quality, data.root)
     rows = [shown(judgement) for judgement in judgements]
     for row in rows:
         row["release"] = found.get((row["numbers"], row["kind"])) if row["outcome"] == "undecided" else None
@@ -65,13 +65,13 @@ def rendered(judgements: Sequence[Judgement], data: Planned, *, release: bool) -
         rows=rows,
         figures=by_figure(rows),
         row={f"{row['numbers']} {row['kind']}": row for row in rows},
-        panels=in_rows([panel_of(data, name, release=release) for name in data.plan]),
+        panels=in_rows([described(data, name, release=release) for name in data.plan]),
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
     return page.encode()
 
 
-def panel_of(data: Planned, name: str, *, release: bool) -> dict[str, Any]:
+def described(data: Planned, name: str, *, release: bool) -> dict[str, Any]:
     """A panel with its picture, and what it is made from, for the template. Raises OSError."""
     record = json.loads((data.root / record_of(data.plan, name, data.quality)).read_text("utf-8"))
     content = (data.root / f"{stem_of(name, data.quality)}.svg").read_bytes()
@@ -85,7 +85,7 @@ def panel_of(data: Planned, name: str, *, release: bool) -> dict[str, Any]:
         "height": round(height * INCH),
         "address": f"{name}.png" if release else f"data:image/svg+xml;base64,{picture}",
         "runs": [
-            (Path(path).parent.name, f"{run.program} {run.options_text}", cpu_seconds(data.root / path))
+            (panel_of(path), f"{run.program} {run.options_text}", cpu_seconds(data.root / path))
             for path, run in runs.items()
         ],
         "sources": [path for path in record["parents"] if not path.endswith(".h5")],
@@ -147,21 +147,6 @@ def by_figure(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         told = {"rows": wrong + literal, "undecided": undecided}
         answers.append({"number": number, "outcome": outcome, "answer": answer} | told)
     return answers
-
-
-def of_release(root: Path) -> dict[tuple[str, str], tuple[str, str]]:
-    """Verdict and range of the numbers of the release, by claim and kind; empty without a release."""
-    try:
-        table = pd.read_csv(root / NUMBERS)
-        found = {}
-        for key, part in table.groupby(["claim", "kind", "claim_verdict"], sort=False):
-            claim, kind, verdict = map(str, key)
-            ends = part.sort_values("value").iloc[[0, -1]].drop_duplicates().itertuples()
-            numbers = (Estimate("", end.value, end.error, systematic=end.systematic) for end in ends)
-            found[claim, kind] = verdict, " to ".join(map(typeset.value, numbers))
-    except (OSError, KeyError):
-        return {}
-    return found
 
 
 def shown(judgement: Judgement) -> dict[str, Any]:

@@ -38,11 +38,8 @@ namespace lorentz {
 /// error is a random walk (docs/numerics.md). 0 and +-1 are exact.
 class Elastic {
  public:
-  static constexpr RuleProperties properties{.name = "elastic",
-                                             .description = "energy and momentum are conserved",
-                                             .conserves_energy = true,
-                                             .conserves_momentum = true,
-                                             .invariant = InvariantMeasure::maxwellian};
+  static constexpr RuleProperties properties{
+      .name = "elastic", .description = "energy and momentum are conserved", .conserves_momentum = true};
 
   /// Throws std::invalid_argument unless -1 <= sigma <= 1.
   explicit Elastic(double sigma) {

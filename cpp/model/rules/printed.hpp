@@ -13,9 +13,7 @@ class Printed : public Elastic {
  public:
   static constexpr RuleProperties properties{.name = "printed",
                                              .description = "elastic, rounded as in the paper's formula",
-                                             .conserves_energy = true,
-                                             .conserves_momentum = true,
-                                             .invariant = InvariantMeasure::maxwellian};
+                                             .conserves_momentum = true};
 
   /// Throws std::invalid_argument unless -1 < sigma < 1.
   explicit Printed(double sigma) : Elastic(sigma), given_(sigma) {

@@ -13,9 +13,7 @@ class RandomDirection : public Elastic {
   static constexpr RuleProperties properties{
       .name = "random-direction",
       .description = "elastic, then the direction of the particle is drawn",
-      .conserves_energy = true,
-      .conserves_momentum = false,
-      .invariant = InvariantMeasure::maxwellian};
+      .conserves_momentum = false};
 
   using Elastic::Elastic;
 

@@ -16,9 +16,7 @@ class Reversal : public Elastic {
   static constexpr RuleProperties properties{
       .name = "reversal",
       .description = "elastic, then the scatterer's momentum is reversed with --reversal-probability",
-      .conserves_energy = true,
       .conserves_momentum = false,
-      .invariant = InvariantMeasure::maxwellian,
       .options = options,
       .is_elastic = [](std::span<const double> values) { return values[0] == 0; }};
 

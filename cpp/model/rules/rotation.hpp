@@ -26,9 +26,7 @@ class Rotation : public Elastic {
       .description =
           "elastic, then with --rotation-probability particle, scatterer and a neighbouring "
           "scatterer exchange energy and momentum at random",
-      .conserves_energy = true,
       .conserves_momentum = true,
-      .invariant = InvariantMeasure::maxwellian,
       .options = options,
       .is_elastic = [](std::span<const double> values) { return values[0] == 0; },
       .changes_neighbour = true};

@@ -14,12 +14,12 @@
 
 namespace lorentz {
 
-/// Tallies of the currents through the openings and the temperatures of the end cells [eq. 26, eq. 27], with
-/// their control variates.
+/// Tallies of the currents through the openings, means of both, and the temperatures of the end cells [eq.
+/// 26, eq. 27], with their control variates.
 struct EndTallies : TallySchema {
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
-  Tally energy_current = tally("energy_current", "energy/time", "J_U, mean of both openings");
-  Tally particle_current = tally("particle_current", "1/time", "J_n, mean of both openings");
+  ScalarTally energy_current = tally("energy_current", "energy/time", "J_U, positive to the right");
+  ScalarTally particle_current = tally("particle_current", "1/time", "J_n, positive to the right");
   Tally temperature = tally("temperature", {end}, "temperature", "Time average of P^2/M");
   Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
   Tally scattering = tally("scattering", {end}, "energy", "Scattering martingale; mean 0");
@@ -68,8 +68,8 @@ class EndsAndOpenings {
 
   void record(const EndTallies& tallies, TallySums& sums) const {
     const double duration = window_.end - window_.begin;
-    sums[tallies.energy_current][0] = openings_.energy / duration;
-    sums[tallies.particle_current][0] = openings_.particles / duration;
+    sums[tallies.energy_current] = openings_.energy / duration;
+    sums[tallies.particle_current] = openings_.particles / duration;
     sums.set(tallies.injection, injections_.deviations(chain_, duration));
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const EndCell& end = ends_[i];

@@ -74,9 +74,9 @@ std::vector<double> scores(const std::vector<Velocities>& all) {
   return scores;
 }
 
-// Every rule has the three properties that it declares. Detected mistakes: any of the three is declared
-// wrongly.
-TEST(Rules, HaveThePropertiesThatTheyState) {
+// Every rule conserves energy, leaves the measure invariant, and conserves momentum if it states so. Detected
+// mistakes: a rule without one of the three.
+TEST(Rules, HaveTheirProperties) {
   for (const RuleProperties& rule : rules::all) {
     for (const double sigma : sigmas) {
       const Rules any = make_rule(support::example(rule), sigma);
@@ -86,10 +86,10 @@ TEST(Rules, HaveThePropertiesThatTheyState) {
           seen, [](const Velocities& v) { return v.u * v.u + v.U * v.U + v.neighbour * v.neighbour; });
       const double momentum =
           largest_change(seen, [&](const Velocities& v) { return v.u + root_mass * (v.U + v.neighbour); });
-      EXPECT_EQ(energy < 1e-12, rule.conserves_energy) << rule.name << " " << sigma;
+      EXPECT_LT(energy, 1e-12) << rule.name << " " << sigma;
       EXPECT_EQ(momentum < 1e-12, rule.conserves_momentum) << rule.name << " " << sigma;
       const double largest = std::ranges::max(scores(seen.after));
-      EXPECT_EQ(largest < 5, rule.invariant == InvariantMeasure::maxwellian) << rule.name << " " << largest;
+      EXPECT_LT(largest, 5) << rule.name << " " << sigma;
     }
   }
 }

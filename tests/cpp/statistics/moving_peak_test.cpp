@@ -101,9 +101,9 @@ TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentre) {
 // Heights 1/t without a peak at the end of an octave. Detected mistakes: the octave is lost; a fit that
 // covers less than half of the octave is kept.
 TEST(MovingPeak, OctavesLeaveOutTimesWithoutAPeak) {
-  const std::vector<double> times{1, 1.2, 1.5, 2, 2.1, 2.2, 4};
+  const std::vector<double> uneven{1, 1.2, 1.5, 2, 2.1, 2.2, 4};
   std::vector<double> mean;
-  for (const double time : times)
+  for (const double time : uneven)
     for (int cell = 0; cell < cells; ++cell) {
       const double x = (std::abs(cell - centre) - 25) / 4.;
       mean.push_back(std::exp(-0.5 * x * x) / time);
@@ -113,9 +113,9 @@ TEST(MovingPeak, OctavesLeaveOutTimesWithoutAPeak) {
     for (int i = 0; i < 2; ++i) both.append(mean);
     return both;
   }();
-  PeakWindows windows = peak_windows(records, Tally{0, records.width()}, times.size());
+  PeakWindows windows = peak_windows(records, Tally{0, records.width()}, uneven.size());
   windows[3] = windows[6] = std::nullopt;  // the ends of both octaves
-  const std::vector<double> exponents = MovingPeak(mean, times, windows).exponents_by_octave();
+  const std::vector<double> exponents = MovingPeak(mean, uneven, windows).exponents_by_octave();
   ASSERT_EQ(exponents.size(), 2U);
   EXPECT_NEAR(exponents[0], 1, 1e-3);
   EXPECT_TRUE(std::isnan(exponents[1]));

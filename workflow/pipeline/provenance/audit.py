@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from workflow.lib.files import format_os_error
-from workflow.lib.identity import ROOT, sha256, siblings, sources_of_panel
+from workflow.lib.identity import ROOT, panel_of, run_of, sha256, siblings, sources_of_panel
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
@@ -36,8 +36,8 @@ from workflow.pipeline.plan import (
     runs_of,
     stem_of,
 )
-from workflow.pipeline.records import SHORT, doubtful, panel_of, read_record, run_of
-from workflow.pipeline.sources import source_hash
+from workflow.pipeline.records import SHORT, doubtful, read_record
+from workflow.pipeline.sources import sources_changed
 
 WRITABLE = os.access(ROOT, os.W_OK)
 
@@ -105,7 +105,7 @@ def changes(run: Run, sibling: Path) -> list[str]:
     was, now = options_of(former["option_words"]), options_of(run.options_text)
     differing = [f"it has {option}" for option in was if option not in now]
     differing += [f"planned is {option}" for option in now if option not in was]
-    if former["source_hash"] != source_hash(run.program):
+    if sources_changed(former):
         differing.append(f"sources of {run.program} have changed")
     return differing
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import stdtr
 
+from workflow.lib.identity import panel_of
 from workflow.lib.load import FormatError, Quantity, Result, load
 from workflow.pipeline.plan import Selection, data_path, load_plan, runs_of
 
@@ -99,7 +100,7 @@ def main(options: argparse.Namespace) -> int:
     selection, found, excluded = Selection.parse(options.quality), [], []
     plan = load_plan(selection.quality)
     for path, run in runs_of(options.plan, options.panels or options.plan, selection.name).items():
-        panel = Path(path).parent.name
+        panel = panel_of(path)
         former = data_path(selection.quality, panel, plan[panel].run(run.name))
         if Path(former).is_file():
             try:

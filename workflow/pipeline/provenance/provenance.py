@@ -9,13 +9,22 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.identity import FORMER, SHARED, named_identity, read_identity_line, result_identity, sha256
+from workflow.lib.identity import (
+    FORMER,
+    SHARED,
+    named_identity,
+    panel_of,
+    read_identity_line,
+    record_name,
+    result_identity,
+    sha256,
+)
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import FIGURES, QUALITIES, REPORT, Selection, load_plan, runs_of, stem_of
 from workflow.pipeline.provenance.audit import Product
 from workflow.pipeline.records import read_record
-from workflow.pipeline.sources import source_hash
+from workflow.pipeline.sources import sources_changed
 
 HDF5 = b"\x89HDF"  # first bytes of a file
 
@@ -27,10 +36,9 @@ def print_panel(panel: str, quality: str) -> None:
 
 def print_command(origin: dict[str, Any], where: str = "") -> None:
     """Command of the program of a result."""
-    program = origin["program"]
-    print(f"{where}{program} {origin['option_words']}")
-    if origin["source_hash"] != source_hash(program):
-        print(f"sources of {program} differ here")
+    print(f"{where}{origin['program']} {origin['option_words']}")
+    if sources_changed(origin):
+        print(f"sources of {origin['program']} differ here")
 
 
 def selections() -> list[str]:
@@ -50,9 +58,9 @@ def explain_result(path: Path) -> int:
         plan = load_plan(quality)
         for planned, run in runs_of(plan, plan, quality).items():
             if (run.program, run.options_text) == (program, words):
-                panels.append((Path(planned).parent.name, quality))
+                panels.append((panel_of(planned), quality))
     fresh = "fresh" if panels else "of no panel here"
-    if origin["source_hash"] != source_hash(program):
+    if sources_changed(origin):
         fresh = f"stale: sources of {program} have changed"
     print(f"unmodified, {fresh}")
     for panel, quality in panels:
@@ -71,7 +79,7 @@ def explain_figure(path: Path) -> int:
         )
         return 1
     panel, quality, identity = line
-    plan, name = load_plan(quality), f"{panel}.{identity}.json"
+    plan, name = load_plan(quality), record_name(panel, identity)
     known = next(
         (path for folder in (FIGURES, FORMER) if (path := Path(folder, quality, name)).exists()), Path(name)
     )

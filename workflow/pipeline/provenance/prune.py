@@ -13,7 +13,8 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from workflow.lib.identity import IDENTITY, named_identity, read_identity_line
+from workflow.lib.files import missing
+from workflow.lib.identity import IDENTITY, named_identity, panel_of, read_identity_line
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import FIGURES, REPORT, Panel, data_path, runs_of
 from workflow.pipeline.provenance.audit import tracked
@@ -38,16 +39,16 @@ def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
             yield path
 
 
-def missing(quality: str, plan: dict[str, Panel], files: Iterable[Path]) -> int:
+def number_missing(quality: str, plan: dict[str, Panel], files: Iterable[Path]) -> int:
     """Number of planned results that do not exist, of the panels of obsolete results; of all panels if one
     of those is not planned, as after a change of its name. Raises OSError."""
-    panels = {path.parent.name for path in files if path.suffix == ".h5"}
+    panels = {panel_of(path) for path in files if path.suffix == ".h5"}
     planned = (
         data_path(quality, name, run)
         for name, panel in plan.items()
         for run in panel.runs * (name in panels or not panels <= plan.keys())
     )
-    return sum(not Path(path).exists() for path in planned)
+    return len(missing(planned))
 
 
 def main(options: argparse.Namespace) -> int:
@@ -55,7 +56,7 @@ def main(options: argparse.Namespace) -> int:
         lock_products()
     files = sorted({*obsolete(options.quality, options.plan)} - {*map(Path, tracked())})
     size = sum(path.stat().st_size for path in files) / 1e6
-    number = missing(options.quality, options.plan, files)
+    number = number_missing(options.quality, options.plan, files)
     if number and not options.dry and not options.force:
         print(
             f"{number} planned results are missing, and {len(files)} files are not planned: make figures "

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "model/rules.hpp"
+#include "program/errors.hpp"
+#include "sampling/closed_parameters.hpp"
+
+namespace lorentz {
+
+/// Parameters of a record of a closed chain in its stationary state, from which it starts.
+struct HeatCurrentParameters : ClosedParameters {
+  std::vector<double> times{1, 2, 4, 8, 16, 32, 64};  // over which the current is integrated
+  double fit_from = 16;
+
+  HeatCurrentParameters() {
+    ring.scattering.cells = 160;
+    temperature = 1;
+    fugacity = 1;
+    relaxation_time = 0;
+    observation_time = 256;
+  }
+
+  double scatterer_mass() const { return (1 + ring.scattering.sigma) / (1 - ring.scattering.sigma); }
+
+  /// Number of intervals of a record, each as long as the first of `times`; lags(times) are `lags`.
+  std::size_t intervals(const std::vector<std::size_t>& lags) const {
+    const auto whole = static_cast<std::size_t>(observation_time / times.front() * (1 + 1e-9));
+    return std::max(whole, lags.back());  // the last time may be rounded
+  }
+};
+
+/// Ascending times in units of the first, the interval of a record. Throws UsageError unless they are whole
+/// multiples of it.
+inline std::vector<std::size_t> lags(const std::vector<double>& times) {
+  std::vector<std::size_t> lags;
+  for (const double time : times) {
+    const double lag = time / times.front();
+    if (lag > 1e6 || std::abs(lag - std::round(lag)) > 1e-6 * lag)
+      throw UsageError(
+          "--times: every time must be a whole multiple of the first, which is the interval of the record, "
+          "and at most 1e6 times it. Choose others.");
+    lags.push_back(static_cast<std::size_t>(std::lround(lag)));
+  }
+  return lags;
+}
+
+/// Declares all of them; every scatterer scatters.
+inline void declare(Options& options, HeatCurrentParameters& parameters) {
+  declare_without_gamma(options, parameters.ring.scattering);
+  options.real("--cell-length", parameters.ring.cell_length, positive, "length",
+               "Distance between scatterers");
+  options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");
+  options.real("--fugacity", *parameters.fugacity, positive, "1/length",
+               "z of the flux z exp(-p^2/2T) in the stationary state, from which a run starts");
+  options.real("--observation-time", parameters.observation_time, positive, "time", "Time of the record");
+  options.ascending_list("--times", parameters.times, positive, "time",
+                         "Times over which the current is integrated, multiples of the first");
+  options.real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
+}
+
+/// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. 56, 57].
+/// Validity: where momentum is conserved.
+struct Sound {
+  double speed;          // c, a length over a time
+  double self_coupling;  // lambda_s, length^(3/2)/time
+
+  static Sound of(const HeatCurrentParameters& parameters) {
+    const double z = parameters.fugacity.value(), spacing = parameters.ring.cell_length;
+    const double a = z + 0.5 / spacing, rho = 2 * z + parameters.scatterer_mass() / spacing;
+    const double T = parameters.temperature;
+    return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
+  }
+
+  /// Distance that a peak has covered after a time, plus its root-mean-square width [eq. 57].
+  double reach(double time) const {
+    const double second_moment = 0.510523;  // of f_KPZ
+    return speed * time + std::sqrt(second_moment) * std::pow(self_coupling * time, 2. / 3);
+  }
+};
+
+/// Throws UsageError if options that are valid one by one exclude each other, or if sound travels around the
+/// ring.
+inline void validate(const HeatCurrentParameters& parameters) {
+  validate(static_cast<const ClosedParameters&>(parameters));
+  const std::vector<double>& times = parameters.times;
+  if (times.back() > parameters.observation_time)
+    throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
+  constexpr double most_intervals = 1e8;
+  if (parameters.observation_time > most_intervals * times.front())
+    throw UsageError(fmt::format(
+        "--observation-time, --times: a record would have more than {:g} of the first of --times. Choose a "
+        "shorter one, or later times.",
+        most_intervals));
+  if (std::ranges::count_if(times, [&](double time) { return time >= parameters.fit_from; }) < 2)
+    throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
+  const ScatteringParameters& scattering = parameters.ring.scattering;
+  const double least = std::ceil(2 * Sound::of(parameters).reach(times.back()) / parameters.ring.cell_length);
+  if (!draws_direction(scattering.rule.name) && scattering.cells < least)
+    throw UsageError(fmt::format(
+        "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} cells, or "
+        "earlier times.",
+        least));
+}
+
+}  // namespace lorentz
