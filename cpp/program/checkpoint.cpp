@@ -5,6 +5,7 @@
 #include <span>
 
 #include "program/atomic_file.hpp"
+#include "program/cpu_time.hpp"
 #include "program/errors.hpp"
 #include "program/hdf5_file.hpp"
 #include "statistics/tally.hpp"
@@ -12,7 +13,8 @@
 namespace lorentz {
 namespace {
 
-void write(Hdf5Writer& file, const std::string& identity, const FinishedReplicas& finished) {
+void write(Hdf5Writer& file, const std::string& identity, double cpu_seconds,
+           const FinishedReplicas& finished) {
   std::vector<std::uint64_t> indices, events;
   std::vector<double> values;
   for (const auto& [index, one] : finished) {
@@ -25,6 +27,8 @@ void write(Hdf5Writer& file, const std::string& identity, const FinishedReplicas
   file.array("/replicas", {"index", "1", "Number of the replica, from 0", {replica}}, indices);
   file.array("/replicas", {"events", "1", "Events of the replica", {replica}}, events);
   file.array("/replicas", {"tallies", "1", "Sums of the replica", {replica, column}}, values);
+  file.array("/replicas", {"cpu_seconds", "s", "CPU time of all processes of the run", {}},
+             std::vector{cpu_seconds});
   file.attribute("/replicas", "identity", identity);
 }
 
@@ -32,12 +36,12 @@ void write(Hdf5Writer& file, const std::string& identity, const FinishedReplicas
 
 void Checkpoint::save(const FinishedReplicas& finished) const {
   Hdf5Writer file;
-  write(file, identity, finished);
+  write(file, identity, former_seconds + cpu_seconds(), finished);
   file.attribute("/replicas", "digest", file.digest());
   write_atomically(path, file.image());
 }
 
-FinishedReplicas Checkpoint::load() const try {
+FinishedReplicas Checkpoint::load() try {
   const Hdf5Reader file(path);
   if (!file.has_attribute("/replicas", "identity", identity)) return {};
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
@@ -52,8 +56,10 @@ FinishedReplicas Checkpoint::load() const try {
     finished[indices[row]] = {{part.begin(), part.end()}, events[row]};
   }
   Hdf5Writer again;
-  write(again, identity, finished);
+  const double spent = file.doubles("/replicas/cpu_seconds").front();
+  write(again, identity, spent, finished);
   if (!file.has_attribute("/replicas", "digest", again.digest())) throw NumericalError("the digest differs");
+  former_seconds = spent;
   return finished;
 } catch (const NumericalError&) {
   throw UsageError(fmt::format("'{}' cannot be resumed: it is damaged. Remove it.", path));

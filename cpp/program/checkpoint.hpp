@@ -19,14 +19,15 @@ using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 /// The finished replicas of a run in an HDF5 file, with a digest as that of a result.
 struct Checkpoint {
   std::string path;
-  std::string identity{};  // of the run, as of its result: options that determine it, and sources
+  std::string identity{};     // of the run, as of its result: options that determine it, and sources
+  double former_seconds = 0;  // CPU time of the processes before this one, from load()
 
   /// At least one replica. Throws UsageError if the file cannot be written.
   void save(const FinishedReplicas& finished) const;
 
   /// No replicas if the file is of other options or sources. Throws UsageError if it cannot be read or is
   /// damaged.
-  FinishedReplicas load() const;
+  FinishedReplicas load();
 };
 
 }  // namespace lorentz

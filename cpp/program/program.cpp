@@ -10,13 +10,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <new>
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
+#include "program/cpu_time.hpp"
 #include "program/describe.hpp"
 #include "program/hdf5_file.hpp"
 
@@ -30,13 +30,13 @@ std::string cost_path(const std::string& output) {
 
 /// Computing time and memory as JSON, stored apart from the results because they differ between runs with
 /// equal results.
-std::string cost(double wall, std::uint64_t events) {
+std::string cost(double wall, double cpu, std::uint64_t events) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   constexpr std::int64_t bytes_per_unit = 1024;  // Linux reports kilobytes
   return fmt::format(
       "{{\"wall_seconds\": {:.6f}, \"cpu_seconds\": {:.6f}, \"peak_memory_bytes\": {}, \"events\": {}}}\n",
-      wall, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, usage.ru_maxrss * bytes_per_unit, events);
+      wall, cpu, usage.ru_maxrss * bytes_per_unit, events);
 }
 
 /// Lines of --help: every quantity with its units and axes.
@@ -135,7 +135,7 @@ ExitStatus Program::write(const Outcome& outcome) const {
   for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
   file.attribute("/provenance", "digest", file.digest());
   write_atomically(output_, file.image());
-  const std::string spent = cost(elapsed(), outcome.events);
+  const std::string spent = cost(elapsed(), outcome.former_seconds + cpu_seconds(), outcome.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));
   return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }

@@ -26,6 +26,7 @@ struct Outcome {
   double plain_error =
       std::numeric_limits<double>::quiet_NaN();  // without control variates, if there are any
   Convergence convergence = Convergence::not_reached;
+  double former_seconds = 0;  // CPU time of the processes from whose checkpoint the run was resumed
 };
 
 /// Common part of every executable: options, one computation, one HDF5 file written atomically, a cost file

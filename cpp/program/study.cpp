@@ -255,7 +255,9 @@ void StudyProgram::checkpoint_on_exit(const std::string& why) {
 /// From the first replicas, which are finished. A resumed run may have others, of later batches.
 Outcome StudyProgram::estimate(std::uint64_t replicas) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Outcome outcome{.target_quantity = study_.target, .target_error = target_error_ > 0 ? target_error_ : none};
+  Outcome outcome{.target_quantity = study_.target,
+                  .target_error = target_error_ > 0 ? target_error_ : none,
+                  .former_seconds = checkpoint_.former_seconds};
   Records records(study_.tallies.width(), replicas);
   for (std::uint64_t index = 0; index < replicas; ++index) {
     records.append(finished_.at(index).values);

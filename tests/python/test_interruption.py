@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import Program, command_line, soon
+from workflow.lib.load import cpu_seconds
 
 # The jackknife of 2000 replicas takes half of the run time of displacement, so that it is interrupted too.
 LONG = {
@@ -40,6 +41,7 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
             assert not (tmp_path / "out.h5").exists()
             assert program(name, **keywords, threads=2, resume=True).returncode == 0
         assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+        assert cpu_seconds(tmp_path / "out.h5") > 0.7 * cpu_seconds(tmp_path / "whole.h5")
         for path in tmp_path.glob("out*"):  # a kill may leave a temporary file
             assert path.suffix in (".json", ".h5", ".tmp")
             path.unlink()

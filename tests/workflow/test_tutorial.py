@@ -71,20 +71,13 @@ def test_an_observable_of_your_own(own: Project) -> None:
     table = pd.read_csv(own.folder / "figures/smoke/rate.csv", comment="#")
     assert list(table.sigma) == [-0.9, -0.5, 0, 0.5, 0.9]
     assert (table.rate > 0).all()
-    # Nine values in a hundred are outside the bins; the moments are those of persistence.
-    result = load(own.folder / "momenta.h5")
-    density = result["density"]
-    assert 0.85 < density.mean.sum() * (density.axes["p"][1] - density.axes["p"][0]) < 0.95
-    equal = [
-        f"--{name}={result.parameters[name]}"
-        for name in ("cells", "relaxation-time", "observation-time", "replicas", "seed")
-    ]
-    own.run("build/bin/persistence", *equal, "--output", "mu.h5")
-    energy = load(own.folder / "mu.h5")["particle_energy"]
-    assert float(result["mean_square"].mean) == pytest.approx(2 * float(energy.mean), rel=1e-12)
-    assert float(result["mean_square"].standard_error) == pytest.approx(
-        2 * float(energy.standard_error), rel=1e-9
-    )
+    # Without relaxation every event of a run is counted.
+    options = "--relaxation-time 0 --observation-time 10 --replicas 8 --seed 1 --output rate.h5"
+    own.run("build/bin/collision_rate", *options.split())
+    result = load(own.folder / "rate.h5")
+    particles = result.parameters["cells"] * result.parameters["particles_per_cell"]
+    counted = float(result["rate"].mean) * particles * 10 * 8
+    assert counted == pytest.approx(result.provenance["events"], rel=1e-12)
     # The other panels stay as they are.
     assert record_of(load_plan("smoke"), "fig05", "smoke") in own.entry("figures", "DRY=yes")
 

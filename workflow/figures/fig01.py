@@ -101,7 +101,7 @@ def draw(results: Sequence[Result]) -> Parts:
         below.axhline(1, **style.GUIDE)
         name = rf"$\lambda = {run_parameters.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
-        above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
+        above.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)
         middle.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
         top = 1.3 * max(1, np.nanmax(ratio))

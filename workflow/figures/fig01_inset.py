@@ -71,7 +71,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     axes.errorbar(table.slope_time, table.slope, table.slope_error, label="slope of $n(t)$", **NUMBER)
     plateau = result["plateau"]
     axes.errorbar(plateau.axes["time"], plateau.mean, plateau.error, **HEIGHT)
-    axes.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$dn/d\ln t$")
+    axes.set(xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$dn/d\ln t$")
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
 
 

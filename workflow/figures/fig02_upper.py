@@ -77,7 +77,7 @@ def draw(results: Sequence[Result]) -> Parts:
             size=style.label_size(),
         )
     middle = np.mean(temperatures)
-    above.set(ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))
+    above.set(ylabel=f"temperature ({style.UNIT_SYSTEM})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))
     style.second_axis(above, 0.5, "kinetic energy $E_K$")
     below.axhline(0, **style.GUIDE)
     below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")

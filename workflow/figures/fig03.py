@@ -86,7 +86,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.set(ylabel="$F(p, x)$", xlim=(-SHOWN_MOMENTA, SHOWN_MOMENTA), ylim=(0, None))
     style.second_axis(above, 1 / run_parameters.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
     below.plot([], [], color="grey", linestyle="dotted", label=r"$T_L = T_R$, $\nu_L > \nu_R$")
-    below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
+    below.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")
     below.legend(loc="best")
     outgoing = float(departure[table.case == PAPER].abs().max())

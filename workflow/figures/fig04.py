@@ -81,7 +81,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
             axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
             label = None
     axes.axvline(0, **style.GUIDE)
-    axes.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F_N(p, x)$", xlim=(-reach, reach))
+    axes.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F_N(p, x)$", xlim=(-reach, reach))
 
 
 def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:

@@ -143,6 +143,6 @@ def draw(results: Sequence[Result]) -> Parts:
     ends = [table.tau[~table.unsure].max() for table in tables]
     for axes, end in zip((above, *strips), (np.fmax.reduce(ends), *ends), strict=True):
         axes.axvspan(cut(results[0]), end, **style.WINDOW)
-    strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
+    strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNIT_SYSTEM})")
     above.legend(loc="lower left")
     return figure, pd.concat(tables), caption(results, young, tables)

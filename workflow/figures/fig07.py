@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, GAS, parameters
+from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -52,7 +52,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
     last, paper = random.iloc[-1], results[0]
     without = next(style.format_quantity(result["alpha"]) for result in results if zero(result))
     return f"""
-        The paper plots ⟨x²⟩ ∼ t^α and finds α slightly below 2 ({parameters([paper], "sigma", "gamma", *GAS)}). Here α, fitted in the shaded window,
+        The paper plots ⟨x²⟩ ∼ t^α and finds α slightly below 2 ({parameters([paper], "sigma", "gamma", "particles_per_cell", "temperature")}). Here α, fitted in the shaded window,
         is {style.format_quantity(paper["alpha"])} at N = {cells(paper)} and {without} with zero total momentum. (a) Lines show the drift of the centre of mass, in the end
         {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. (b) Exponents are local. {ERRORS}"""
 
@@ -100,7 +100,9 @@ def draw(results: Sequence[Result]) -> Parts:
     for axes in (above, below):
         axes.axvspan(*window, **style.WINDOW)
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
-    below.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2))
+    below.set(
+        xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2)
+    )
     title = rf"$\sigma = {results[0].parameters['sigma']:g}$"
     figure.legend(
         *above.get_legend_handles_labels(), loc="outside upper left", ncols=2, title=title, alignment="left"

@@ -97,7 +97,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.plot(theory.cells, theory.mean_field_kappa, label=r"$\gamma = N$, mean field", **line)
     below.plot(theory.middle, theory.mean_field_exponent_to_next, **line)
     style.cross_out(above, table.cells, table.kappa, ~table.usable)
-    above.set(xscale="log", yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
+    above.set(xscale="log", yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
     below.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
     low, high = above.get_xlim()
     above.set_xlim(low, 1.6 * high)  # room for the names of the guides

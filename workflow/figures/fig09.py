@@ -128,7 +128,7 @@ def draw(results: Sequence[Result]) -> Parts:
         draw_motion(position, speed, result)
     if results[0].parameters["gamma"] == "N":
         style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
-    rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
+    rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
     name = rf"$\gamma = {run_parameters.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")
     position.set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))

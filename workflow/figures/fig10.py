@@ -122,7 +122,7 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(table.octave_middle, table.octave_exponent, table.octave_exponent_error, **look)
     table = pd.concat(tables)
     gamma = results[0].parameters["gamma"]
-    above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
+    above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNIT_SYSTEM})")
     draw_guides(above, below, gamma, table)
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):

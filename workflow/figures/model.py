@@ -131,7 +131,7 @@ def draw(_: Sequence[Result]) -> Parts:
         axes.set_xticks(np.arange(0, CELLS + 1, 2))
         axes.set(xlim=(0, CELLS), ylim=(0, TIME), xlabel="position $x$  (grey: scatterers)")
         axes.tick_params(top=False, right=False)
-    panels[0].set(title="(a) closed chain: a ring", ylabel=f"time $t$  ({style.UNITS})")
+    panels[0].set(title="(a) closed chain: a ring", ylabel=f"time $t$  ({style.UNIT_SYSTEM})")
     for end in ("left", "right"):
         panels[0].spines[end].set_linestyle((0, (5, 4)))
     panels[1].set(title="(b) open chain between two baths")

@@ -21,7 +21,6 @@ SYMBOLS = {
     "energy": "ε⁰ = {}",
     "pulse_energy": "ε̃ = {}",
 }
-GAS = ("particles_per_cell", "temperature")
 BATHS = ("nu_left", "nu_right", "temperature_left", "temperature_right")
 PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 

@@ -26,7 +26,7 @@ COLUMN = 3.4
 HEIGHT = 3.0
 
 # Text in the axis labels of quantities with a dimension.
-UNITS = "$m = k_B = 1$"
+UNIT_SYSTEM = "$m = k_B = 1$"
 
 # Colours of matplotlib's cycle, which apply() sets to those of Okabe and Ito (2008). Neighbours in SEQUENCE
 # differ in lightness; markers differ too.

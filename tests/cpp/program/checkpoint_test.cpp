@@ -32,6 +32,11 @@ TEST_F(CheckpointTest, LoadsWhatWasSaved) {
     EXPECT_EQ(loaded.at(index).events, record.events);
   }
   EXPECT_TRUE(std::signbit(loaded.at(0).values[1]));
+  const double first = checkpoint.former_seconds;  // the CPU time of this process when it saved
+  EXPECT_GT(first, 0);
+  checkpoint.save(loaded);
+  (void)checkpoint.load();
+  EXPECT_GE(checkpoint.former_seconds, 2 * first);
 }
 
 TEST_F(CheckpointTest, OfAnotherRunHasNoReplicas) {
