@@ -191,7 +191,7 @@ def at_centre(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 outer = P[(abs(P) > math.sqrt(0.5 * (COLD + HOT))) & SEEN]
-claim("fluxes.deviations_central", {"fig03_inset": {"flux": at_centre}}, [*(-1e-3 * outer), 0.2])
+claim("fluxes.deviations_central", {"fig03_inset": {"flux": at_centre}}, [*(-1e-3 * outer), 0.1 / HEIGHT])
 
 
 def falling(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:

@@ -58,8 +58,8 @@ def test_accuracy(monkeypatch: pytest.MonkeyPatch) -> None:
         assert_points(axes, *((kappa, kappa / 100 - 1, np.hypot(0.01 * kappa, 1) / 100) for kappa in kappas))
     assert_points(targets, ([102], [2], [2]), ([101], [0.1], [0.2]))  # by ascending target
     assert_line(kinetic_axes, [1, 2], [0.1, 0.01])
-    assert "costs 3.2e+02 s at N = 16 and 5.1e+03 s at N = 64" in caption
-    assert "target error: 2.00 at most" in caption
+    assert "costs 320 s at N = 16, 5100 s at N = 64" in caption
+    assert "Deviation over target: 2.00 at most" in " ".join(caption.split())
 
 
 def test_stability() -> None:

@@ -52,6 +52,16 @@ def test_there_is_no_error_where_no_particle_turns(program: Program, tmp_path: P
     assert np.isnan([stored["mu"].standard_error, stored.provenance["achieved_error"]]).all()
 
 
+def test_the_error_of_an_array_is_that_of_its_least_accurate_element(
+    program: Program, tmp_path: Path
+) -> None:
+    assert program("steady_profile").returncode == 0
+    result = load(tmp_path / "out.h5")
+    temperature = result["temperature_scatterer"]
+    assert len(temperature.mean) > 1
+    assert result.provenance["achieved_error"] == (temperature.error / temperature.mean).max()
+
+
 def test_a_quantity_that_is_not_defined_misses_no_target(program: Program, tmp_path: Path) -> None:
     """No particle scatters."""
     assert program("persistence", relaxation_time=0, observation_time=1e-12).returncode == 0

@@ -113,7 +113,7 @@ def deviations_over_bounds(data: Data) -> list[Estimate]:
 
 def deviations_central(data: Data) -> list[Estimate]:
     """Deviations at N = 2, where they are largest: those beyond the thermal momentum against those of the
-    two central bins, and the odd part of the central ones over their mean magnitude."""
+    two central bins, and the odd part of the central ones."""
     table, degrees = _finite(data)
     temperature = np.mean(data.one("fig03_inset", "simulation_cells=2").ends("temperature"))
     part = _of_size(table, 2)
@@ -126,8 +126,7 @@ def deviations_central(data: Data) -> list[Estimate]:
         label = f"1 - |deviation at p = {momentum[k]:g}|/|that at p = 0|"
         both = [centre, Estimate("", abs(value[k]), error[k], degrees)]
         less.append(combination(both, [1 / centre.value, -1 / centre.value], label))
-    half = 0.5 / abs(centre.value)
-    odd = combination([left, right], [half, -half], "odd part over the whole at p = 0")
+    odd = combination([left, right], [0.5, -0.5], "odd part over max F at p = 0")
     return [*less, _magnitude(odd)]
 
 

@@ -134,7 +134,7 @@ def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(xscale="log", xlabel="CPU time / s", ylabel="deviation / target error")
     style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left", title="target", ncols=3)
-    axes.set_ylim(-2.5, 4)
+    axes.set_ylim(-4, 5)
 
 
 def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
@@ -158,7 +158,8 @@ def cost_at(table: pd.DataFrame, gamma: str, largest: bool) -> str:
     part = table[~table.series.isin(OWN) & (table.program == "conductivity") & (table.gamma == gamma)]
     part = part[part.cells >= 16].sort_values("cells")
     row = part.iloc[-1 if largest else 0]
-    return f"{row.cost_of_1_percent:.2g} s at N = {row.cells:g}"
+    cost = float(f"{row.cost_of_1_percent:.2g}")
+    return f"{cost:g} s at N = {row.cells:g}"
 
 
 def caption(table: pd.DataFrame) -> str:

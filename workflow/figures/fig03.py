@@ -67,7 +67,7 @@ def caption(results: Sequence[Result], outgoing: float) -> str:
     return f"""
         The paper plots the flux F(p, x) and finds a jump at p = 0 ({parameters([paper], "sigma", "gamma")}, {baths(paper)}). (a) Here it is {jumps}.
         (b) Each half is divided by the Gaussian of its rate and second moment. The injected halves are Gaussian; the outgoing ones deviate
-        by up to {outgoing:.2g} % (dotted: equal temperatures)."""
+        by up to {outgoing:.2g} % where F exceeds {100 * OFTEN:g} % of its largest value (dotted: equal temperatures)."""
 
 
 @plots("paper equal")

@@ -71,13 +71,13 @@ def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
 
 
 def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
-    """Plots F at both ends, and in black that of the mean field."""
+    """Plots F at both ends as points, and as black lines that of the mean field."""
     for end, part in table.groupby("x", sort=False):
-        _, color, dashes, _ = ENDS[end]
+        _, color, _, marker = ENDS[end]
         label: str | None = f"${end}$"
         for half in halves(part[part.momentum.abs() < reach]):
-            look: style.Look = {"color": color, "linestyle": dashes}
-            axes.errorbar(half.momentum, half.flux, half.flux_error, elinewidth=0.8, label=label, **look)
+            look = style.points(marker, color, markersize=2, capsize=0)
+            axes.errorbar(half.momentum, half.flux, half.flux_error, label=label, **look)
             axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
             label = None
     axes.axvline(0, **style.GUIDE)

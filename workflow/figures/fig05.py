@@ -71,7 +71,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         The paper plots the probability μ that a particle keeps its direction in a scattering and finds arccos(σ)/π ({parameters(results, "cells", "gamma", "temperature")}).
         (b) Here μ differs by {most.get("paper", "(unknown)")} at most for |σ| ≤ 0.9; with total momentum Π = 0 by {most.get("zero-momentum", "(unknown)")}; with 320 particles per
-        cell by {most.get("dense", "(unknown)")}. Dashes show the law at the conserved Π. {ERRORS}"""
+        cell by {most.get("dense", "(unknown)")}. Dashes: the law at the conserved Π; at σ = 0.99
+        scatterers are not yet as hot as particles. {ERRORS}"""
 
 
 @plots("paper zero-momentum dense")

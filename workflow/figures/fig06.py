@@ -114,7 +114,8 @@ def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFr
     younger = format_number(results[0].parameters["relaxation_time"] / young.parameters["relaxation_time"])
     return f"""
         The paper gives the density Ψ(τ) of waiting times exponents {powers} ({parameters(results, "gamma", "particles_per_cell")}). Here
-        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
+        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Black: fitted powers. Open: errors above {100 * UNSURE:.0f} %; triangles:
+        above the frame. {ERRORS}"""
 
 
 @plots("all young")

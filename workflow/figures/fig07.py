@@ -68,12 +68,13 @@ def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(2, 1, height=1.8)
     for result, table in zip(results, tables, strict=True):
         look = LOOKS[zero(result)]
-        name = f"$N = {cells(result)}$" + (", zero total momentum" if zero(result) else "")
+        name = ("zero" if zero(result) else "random") + " total momentum"
         above.errorbar(table.time, table.variance, table.variance_error, label=name, **look)
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
-            above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=0)
+            label = "its centre of mass"
+            above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=0, label=label)
             style.band(
                 above,
                 table.time,
@@ -81,7 +82,6 @@ def draw(results: Sequence[Result]) -> Parts:
                 table.centre_of_mass_variance_error,
                 look["color"],
             )
-    above.plot([], [], color="grey", label="centre of mass")
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
         guide = factor * table.variance.iloc[-1] * (late / last) ** power
@@ -103,7 +103,7 @@ def draw(results: Sequence[Result]) -> Parts:
     below.set(
         xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2)
     )
-    title = rf"$\sigma = {results[0].parameters['sigma']:g}$"
+    title = rf"$N = {cells(results[0])}$, $\sigma = {results[0].parameters['sigma']:g}$"
     figure.legend(
         *above.get_legend_handles_labels(), loc="outside upper left", ncols=2, title=title, alignment="left"
     )

@@ -73,7 +73,7 @@ def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
     exchange = "The exponents without drift are enlarged."
     if len(exchanged):
         alpha = format_with_error(*exchanged[["alpha", "alpha_error"]].iloc[-1])
-        exchange = f"At σ = 0 momenta are only exchanged, waits follow τ⁻³, and without drift α is {alpha}, tending to 1 slowly."
+        exchange = f"At σ = 0 momenta are only exchanged, waits follow τ⁻³, and without drift α is {alpha}."
     return f"""
         The paper plots α of ⟨x²⟩ ∼ t^α and finds 1 < α < 2 for σ ≠ 0 ({parameters(results, "gamma", "particles_per_cell")}). (a) Here it is at least
         {extreme(kinds[PAPER], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""

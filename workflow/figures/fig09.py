@@ -101,7 +101,7 @@ def caption(results: Sequence[Result]) -> str:
         sound = " (d) Dashed: sound in the ring from rest."
     else:
         peaks, sound = "peaks of constant speed", " (d) Speeds refer to intervals."
-        near = " In the dips, particles are missing."
+        near = " In the dips, particles are missing; the spike is the central scatterer, rarely hit."
     return f"""
         The paper plots the effect ΔE(x, t) of an energy pulse and finds {peaks} ({parameters(results, "cells", "sigma", "particles_per_cell")}).
         Here, from rest, the speed in cells per time {speed}.{near}{faint} (c) Dashed lines continue the
@@ -127,7 +127,7 @@ def draw(results: Sequence[Result]) -> Parts:
         tables.append(draw_profiles(panels[result.run], result, shown))
         draw_motion(position, speed, result)
     if results[0].parameters["gamma"] == "N":
-        style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
+        style.guide_at(speed, sound_speed(results[0]), "sound, from rest", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
     name = rf"$\gamma = {run_parameters.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")

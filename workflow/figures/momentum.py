@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS
+from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -35,7 +35,7 @@ class Case(NamedTuple):
 
     @property
     def label(self) -> str:
-        return f"{self.rule}, {100 * self.epsilon:g} %" if self.epsilon else self.rule
+        return f"{self.rule}, {100 * self.epsilon:g} %" if self.epsilon else "no noise"
 
 
 # Filled where momentum is conserved, open where it is not; the larger the fraction, the lighter.
@@ -44,6 +44,9 @@ LOOKS: dict[str, list[tuple[str, str, str | None]]] = {
     "rotation": [("s", style.BLUE, None), ("D", style.SKY, None)],
 }
 LOOKS |= {"reversal": [("v", style.VERMILLION, "white"), ("^", style.ORANGE, "white")]}
+
+
+OTHERS = style.points(".", "0.6", linestyle="-", linewidth=0.5, zorder=1)  # other gases, without noise
 
 
 def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
@@ -106,7 +109,8 @@ def caption(chains: pd.DataFrame, control: pd.DataFrame, cases: Sequence[Case]) 
     return f"""
         Noise that conserves energy and momentum (rotation, filled), or energy alone (reversal, open), in a fraction of the collisions.
         (a) In chains κ({max(sizes)})/κ({min(sizes)}) is {elastic} without noise, {rotated} and {broken} at {100 * epsilon:g} %. (b) In rings ⟨Q²⟩ ∼ t^β;
-        at {100 * epsilon:g} % β − 1 ends at {ends[0]} and {ends[1]}. {ERRORS}"""
+        at {100 * epsilon:g} % β − 1 ends at {ends[0]} and {ends[1]}. Grey: without noise, in other
+        gases. {ERRORS}"""
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
@@ -144,6 +148,15 @@ def draw(results: Sequence[Result]) -> Parts:
     figure, panels = plt.subplots(1, 2, figsize=(1.6 * style.COLUMN, style.HEIGHT))
     draw_chains(panels[0], chains, look)
     draw_rings(panels[1], control, look)
+    for _, other in table[(table.rule == "elastic") & ~table.index.isin(control.index)].groupby("zeta"):
+        panels[1].errorbar(other.middle, other.local_exponent - 1, other.local_exponent_error, **OTHERS)
+    gas = rf"$\sigma = {format_number(float(of_rings[0].parameters['sigma']))}$, $\zeta = {broken.zeta:g}$"
+    of_chains = next(result for result in results if result not in of_rings)
+    sigma, spacing = float(of_chains.parameters["sigma"]), run_parameters.spacing(of_chains)[1]
+    for axes, text in zip(
+        panels, (rf"chains, $\sigma = {sigma:g}$, $\lambda = {spacing}$", f"rings, {gas}"), strict=True
+    ):
+        axes.text(0.96, 0.95, text, transform=axes.transAxes, ha="right", va="top", size=style.label_size())
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     style.letter(*panels)
     return figure, pd.concat([chains, table]), caption(chains, control, cases)

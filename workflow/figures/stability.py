@@ -125,7 +125,8 @@ def draw_partings(axes: Axes, table: pd.DataFrame) -> None:
     for (cells, part), (marker, color) in zip(table.groupby("cells"), SIZES, strict=False):
         look = style.points(marker, color) | {"linestyle": "none"}
         axes.errorbar(part.collisions, part.difference.clip(lower=IDENTICAL), label=f"$N = {cells}$", **look)
-        axes.plot(part.collisions, part.relative_error, color=color, linestyle="dotted")
+        both = np.sqrt(2) * part.relative_error  # of the difference of two independent means
+        axes.plot(part.collisions, both, color=color, linestyle="dotted")
     axes.set(xscale="log", yscale="log", xlabel="collisions of a chain", ylabel="difference of energies")
     axes.legend(loc="center left")
 

@@ -11,7 +11,7 @@ from workflow.lib.load import Result
 LOOKS = {
     "rest": ("s", style.VERMILLION, "white", "from rest, as in the paper"),
     "gaussian": ("o", style.BLUE, style.BLUE, "Gaussian start"),
-    "long": ("^", style.SKY, style.SKY, "Gaussian, longer ring"),
+    "long": ("^", style.SKY, style.SKY, "Gaussian, $N = {cells}$"),
 }
 
 
@@ -30,7 +30,7 @@ def in_order(results: Sequence[Result]) -> list[Result]:
 
 
 def label(result: Result) -> str:
-    return look(result)[3]
+    return look(result)[3].format(cells=result.parameters["cells"])
 
 
 def look_of(result: Result) -> style.Look:
