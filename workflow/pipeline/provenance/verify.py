@@ -11,6 +11,7 @@ import signal
 import subprocess
 from pathlib import Path
 
+from workflow.lib.files import missing
 from workflow.lib.identity import identity
 from workflow.lib.load import FormatError
 from workflow.pipeline.lock import lock
@@ -26,7 +27,8 @@ BUILD = Path("build/verify")  # with a folder for each hash of the sources
 def main(options: argparse.Namespace) -> int:
     """Reruns a sample of the results, or a panel's. Other commands may make products meanwhile."""
     runs = runs_of(options.plan, options.panels or options.plan, options.quality)
-    made = [path for path in runs if Path(path).is_file()]
+    lacking = {*missing(runs)}
+    made = [path for path in runs if path not in lacking]
     if not options.panels:
         made = random.sample(made, min(len(made), max(1, round(float(options.sample) * len(made)))))
     if not made:
@@ -38,10 +40,10 @@ def main(options: argparse.Namespace) -> int:
     fresh = BUILD / identity([source_hash(program) for program in all_programs()])
     for former in (folder for folder in BUILD.iterdir() if folder.is_dir() and folder != fresh):
         shutil.rmtree(former)
-    missing = [program for program in programs if not (fresh / "bin" / program).exists()]
-    if missing:
-        print(f"Compiling {', '.join(missing)}", flush=True)
-        command = ["bash", "workflow/pipeline/environment/build.sh", *missing]
+    uncompiled = [program for program in programs if not (fresh / "bin" / program).exists()]
+    if uncompiled:
+        print(f"Compiling {', '.join(uncompiled)}", flush=True)
+        command = ["bash", "workflow/pipeline/environment/build.sh", *uncompiled]
         if subprocess.run(command, env=os.environ | {"BUILD": str(fresh)}, check=False).returncode:
             return 1
     differing = failed = 0
