@@ -73,7 +73,7 @@ def draw(results: Sequence[Result]) -> Parts:
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
-            label = "its centre of mass"
+            label = "centre of mass, random"
             above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=0, label=label)
             style.band(
                 above,

@@ -151,12 +151,11 @@ def draw(results: Sequence[Result]) -> Parts:
     for _, other in table[(table.rule == "elastic") & ~table.index.isin(control.index)].groupby("zeta"):
         panels[1].errorbar(other.middle, other.local_exponent - 1, other.local_exponent_error, **OTHERS)
     gas = rf"$\sigma = {format_number(float(of_rings[0].parameters['sigma']))}$, $\zeta = {broken.zeta:g}$"
-    of_chains = next(result for result in results if result not in of_rings)
-    sigma, spacing = float(of_chains.parameters["sigma"]), run_parameters.spacing(of_chains)[1]
-    for axes, text in zip(
-        panels, (rf"chains, $\sigma = {sigma:g}$, $\lambda = {spacing}$", f"rings, {gas}"), strict=True
-    ):
-        axes.text(0.96, 0.95, text, transform=axes.transAxes, ha="right", va="top", size=style.label_size())
+    one = next(result for result in results if result not in of_rings)
+    sigma, spacing = float(one.parameters["sigma"]), run_parameters.spacing(one)[1]
+    of_chains = rf"chains, $\sigma = {sigma:g}$, $\lambda = {spacing}$"
+    for axes, text in zip(panels, (of_chains, f"rings, {gas}"), strict=True):
+        axes.set_title(text, size=style.label_size())
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     style.letter(*panels)
     return figure, pd.concat([chains, table]), caption(chains, control, cases)
