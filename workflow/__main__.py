@@ -12,6 +12,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 
 if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while modules are imported: no traceback
@@ -20,7 +21,7 @@ from workflow.lib.files import format_os_error, missing
 from workflow.lib.identity import ROOT, panel_of
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError, panel_names
-from workflow.pipeline.described import BuildError
+from workflow.pipeline.described import BuildError, described, options_of_programs
 from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
@@ -114,15 +115,36 @@ def prepare(target: str, options: argparse.Namespace) -> None:
     known = panel_names() if options.panels else []
     for name in options.panels:
         require_panel(name, known)
+    options.failed = False
     if target in COMPILED and not options.dry:
         lock_products()
-        options.failed = build()
-        if options.failed:
-            print(f"{', '.join(options.failed)}: not compiled, for the reason above", file=sys.stderr)
-            options.failed = target == "build"
+        if target == "build" or not has_results(target, options):
+            compile_programs(target, options)
     options.plan = load_plan(options.quality)
-    if target == "figures":
-        options.panels = default_panels(options.plan)
+    options.panels = panels_of(target, options)
+
+
+def panels_of(target: str, options: argparse.Namespace) -> list[str]:
+    """The requested panels; for the target figures those of the paper."""
+    return default_panels(load_plan(options.quality)) if target == "figures" else options.panels
+
+
+def has_results(target: str, options: argparse.Namespace) -> bool:
+    """Whether all results exist, so that rendering needs no compiler."""
+    with suppress(ConfigurationError):  # perhaps by former programs
+        plan = load_plan(options.quality)
+        return not missing(runs_of(plan, panels_of(target, options) or plan, options.quality))
+    return False
+
+
+def compile_programs(target: str, options: argparse.Namespace) -> None:
+    """Raises CalledProcessError."""
+    failed = build()
+    for former in (load_plan, described, options_of_programs):
+        former.cache_clear()
+    if failed:
+        print(f"{', '.join(failed)}: not compiled, for the reason above", file=sys.stderr)
+        options.failed = target == "build"
 
 
 def require_profile(profile: str) -> None:
@@ -208,7 +230,7 @@ def main() -> int:
         os.chdir(ROOT)
         prepare(target, options)
         if target in COMPILED:
-            return make(target, options) if target in DONE else int(bool(options.failed))
+            return make(target, options) if target in DONE else int(options.failed)
         options.render = target == "audit"
         name = "audit" if target == "status" else target
         module = importlib.import_module(f"workflow.pipeline.provenance.{name}")

@@ -52,9 +52,9 @@ PLOTTED = {
     "far below": (-15, HALF * 0.2),
     "just above": (2, HALF * 0.2),
     "straddling": (1, HALF * 0.2),
-    "above": (0, HALF * 0.01 / 0.4),
-    "not above": (-2, HALF * 0.01 / 0.4),
-    "below": (0, HALF * 0.01 / 0.2),
+    "above": (0.4 / (HALF * 0.01) - 1, 1),
+    "not above": (-0.4 / (HALF * 0.01) - 1, 1),
+    "below": (-0.2 / (HALF * 0.01) + 1, 1),
     "at the edge": (1, 1),
     "unbounded": (0, INF),
     "unknown": (NAN, NAN),
@@ -123,10 +123,11 @@ def test_table_and_picture_have_the_numbers() -> None:
             np.testing.assert_allclose(interval[0].get_xdata(), [low, high], rtol=1e-9, atol=1e-12)
         else:
             assert not interval  # beyond the frame: the arrow alone
-        np.testing.assert_allclose(symbol.get_xdata(), [max(position, -3)])  # NaN is not plotted
+        np.testing.assert_allclose(symbol.get_xdata(), [np.clip(position, -3, 3)])  # NaN is not plotted
         look = {"reproduced": ("o", style.BLUE), "contradicted": ("X", style.VERMILLION)}
-        marker, color = look.get(verdict, ("D", "0.45"))
-        assert symbol.get_marker() == ("<" if name == "far below" else marker)
+        marker, color = look.get(verdict, ("D", style.BLACK))
+        marker = "<" if position < -3 else ">" if position > 3 else marker
+        assert symbol.get_marker() == marker
         assert to_hex(symbol.get_color()) == to_hex(color) == to_hex(symbol.get_markerfacecolor())
     assert len(table) - 1 not in lines
     assert [text.get_text() for text in axes.texts].count("not measured") == 1

@@ -132,10 +132,13 @@ def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(pr
 
 
 def test_a_program_that_does_not_compile_blocks_no_other(project: Project) -> None:
+    """Nor rendering, which needs no compiler."""
     (project.folder / "workflow/pipeline/environment/build.sh").write_text("exit 1\n")
     (project.folder / "build/bin/displacement").unlink()
     (project.folder / "figures/smoke/mu.svg").unlink()
     line = "cpp/observables/displacement.cpp: not compiled"
+    assert line not in project.entry("panel", "PANEL=mu")
+    next(project.folder.glob("data/smoke/mu/*.h5")).unlink()
     assert line in project.entry("panel", "PANEL=mu")
     assert line in project.workflow("build", status=1)
     append("cpp/observables/displacement.cpp", "int x\n")(project)

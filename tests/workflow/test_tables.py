@@ -159,6 +159,8 @@ FRAME = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", "b"]})
         (FRAME.groupby("sigma").max(), "reset_index"),
         (FRAME.groupby(["sigma", "label"]).sum(), "reset_index"),
         (FRAME.set_axis(["x", "y"]), "reset_index"),
+        (FRAME.set_axis([0, 1], axis=1), "rename"),
+        (FRAME.groupby("label").agg(["min", "max"]).reset_index(), "rename"),
         (FRAME.set_axis(["label", "label"], axis=1), "label"),
         (FRAME.assign(label=["a # 1", "b"]), "#"),
         (FRAME.rename(columns={"label": "#"}), "#"),

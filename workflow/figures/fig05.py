@@ -83,7 +83,8 @@ def draw(results: Sequence[Result]) -> Parts:
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, persistence_law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
-    for name, look in LOOKS.items():
+    for name in dict.fromkeys([*LOOKS, *table.series]):
+        look = LOOKS.get(name, style.points("P", style.BLACK, "white", label=name))
         part = table[table.series == name]
         above.errorbar(part.sigma, part.mu, part.mu_error, **look)
         below.errorbar(part.sigma, 1e3 * part.deviation, 1e3 * part.mu_error, **look)

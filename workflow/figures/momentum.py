@@ -35,7 +35,8 @@ class Case(NamedTuple):
 
     @property
     def label(self) -> str:
-        return f"{self.rule}, {100 * self.epsilon:g} %" if self.epsilon else "no noise"
+        kind = {"rotation": "momentum conserved", "reversal": "momentum broken"}.get(self.rule, self.rule)
+        return f"{kind}, {100 * self.epsilon:g} %" if self.epsilon else "no noise"
 
 
 # Filled where momentum is conserved, open where it is not; the larger the fraction, the lighter.
@@ -46,7 +47,7 @@ LOOKS: dict[str, list[tuple[str, str, str | None]]] = {
 LOOKS |= {"reversal": [("v", style.VERMILLION, "white"), ("^", style.ORANGE, "white")]}
 
 
-OTHERS = style.points(".", "0.6", linestyle="-", linewidth=0.5, zorder=1)  # other gases, without noise
+OTHERS = style.points(".", "0.6", linestyle="-", linewidth=0.5, zorder=1)
 
 
 def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
@@ -156,6 +157,7 @@ def draw(results: Sequence[Result]) -> Parts:
     of_chains = rf"chains, $\sigma = {sigma:g}$, $\lambda = {spacing}$"
     for axes, text in zip(panels, (of_chains, f"rings, {gas}"), strict=True):
         axes.set_title(text, size=style.label_size())
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    panels[0].errorbar([], [], [], label="no noise, other gases", **OTHERS)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     style.letter(*panels)
     return figure, pd.concat([chains, table]), caption(chains, control, cases)

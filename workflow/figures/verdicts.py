@@ -1,7 +1,7 @@
 """The verdicts on all claims: of every row of data/claims.csv the number that decides, with its interval, on
 a scale on which the acceptance band is -1 to 1.
 
-A band with one edge has no width: the unit is then the distance of the number from the edge.
+A band with one edge has no width: the unit is then half the interval.
 """
 
 import math
@@ -33,17 +33,17 @@ NOT_MEASURED = "not measured"
 LOOKS = {
     Outcome.REPRODUCED: ("o", style.BLUE),
     Outcome.CONTRADICTED: ("X", style.VERMILLION),
-    Outcome.UNDECIDED: ("D", "0.45"),
+    Outcome.UNDECIDED: ("D", style.BLACK),
 }
 
 
 def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
-    """Origin and unit of the scale. half: half the width of the interval, the unit of a band with one edge
-    if the value is at the edge or unknown."""
+    """Origin and unit of the scale. half: half the width of the interval, the unit of a band with one edge;
+    if it is 0 or unknown, the distance from the edge is."""
     if math.isfinite(band.low) and math.isfinite(band.high):
         return (band.low + band.high) / 2, (band.high - band.low) / 2
     edge, side = (band.low, -1) if math.isfinite(band.low) else (band.high, 1)
-    unit = next((one for one in (abs(value - edge), half) if math.isfinite(one) and one > 0), 1.0)
+    unit = next((one for one in (half, abs(value - edge)) if math.isfinite(one) and one > 0), 1.0)
     return edge - side * unit, unit
 
 
@@ -141,8 +141,7 @@ def caption(table: pd.DataFrame) -> str:
     release = " Small symbols: release." if "release" in table else ""
     return f"""
         Every line is a statement of the paper, literal or in its intended meaning (open symbols): {counts}. Intervals of the number that decides hold jointly at 95 % confidence and
-        include bounds on systematic errors. Grey: acceptance band; if it has one edge, the unit is the distance of the number from that edge. Arrows: numbers beyond the
-        frame.{release}"""
+        include bounds on systematic errors. Grey: acceptance band; if it has one edge, the unit is half the interval. Arrows: numbers beyond the frame.{release}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -162,7 +161,7 @@ def plotted(table: pd.DataFrame) -> Parts:
         frame = axes.get_yaxis_transform()
         axes.text(1.06, -1, "release", transform=frame, size=6.5, ha="right", va="center")
     axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
-    axes.set_xlabel("position; acceptance band: −1 to 1")
+    axes.set_xlabel("acceptance band: −1 to 1")
     axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
     looks = [look_of(outcome.value, "literal") | {"label": outcome.value} for outcome in Outcome]
     handles = [Line2D([], [], **one) for one in looks]

@@ -53,6 +53,8 @@ def require_whole(table: pd.DataFrame, numbers: str) -> None:
     """Raises TableError unless read_csv(comment="#") makes of the text what the script made."""
     if table.index.nlevels > 1 or table.index.name is not None or not is_integer_dtype(table.index):
         raise TableError("the index of the table is not written: return table.reset_index()")
+    if table.columns.nlevels > 1 or not all(isinstance(name, str) for name in table.columns):
+        raise TableError(f"columns need names of one word each: rename {', '.join(map(str, table.columns))}")
     if not table.columns.is_unique:
         raise TableError(f"two columns have the same name: {', '.join(map(str, table.columns))}")
     if "#" in numbers:

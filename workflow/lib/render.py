@@ -62,7 +62,8 @@ def render(job: Job) -> None:
     numbers = as_csv(table, inherited(results) | errors | units)
     shown = script.draw.shown(results) if isinstance(script.draw, Plot) else results
     whole = with_doubts(" ".join(caption.split()), shown)
-    text = Text(script.title(shown) if hasattr(script, "title") else script.TITLE, whole)
+    title = script.title(shown) if hasattr(script, "title") else script.TITLE
+    text = Text(" ".join(title.split()), whole)
     doubts = {str(result.path): result.doubts for result in results if result.doubts}
     save(figure, numbers, Path(job.stem), text, Parents(identity, data, sources, doubts))
 

@@ -2,6 +2,7 @@
 # Configures if necessary and compiles the given targets in build or $BUILD, with $CXX or c++.
 set -euo pipefail
 build=${BUILD:-build}
+case $PWD in *['#";$']*) echo "CMake cannot compile in the folder $PWD: rename it without # \" ; and $" >&2; exit 1 ;; esac
 mkdir -p "$build"
 compiler=$(command -v "${CXX:-c++}") || { echo "the compiler CXX=${CXX:-c++} is not installed; install it or choose another" >&2; exit 1; }
 # CMake keeps the compiler and the folder of its first configuration.

@@ -42,7 +42,7 @@ done
 "$uv" export --quiet --frozen --no-emit-project $groups >"$folder/locked.txt"
 "$uv" pip install --quiet --python "$folder" --require-hashes --requirement "$folder/locked.txt"
 if [ "$folder" != .venv ]; then
-  if [ -e .venv ]; then
+  if [ -e .venv ] || [ -L .venv ]; then
     rm -rf .venv.former
     mv .venv .venv.former
   fi

@@ -212,8 +212,8 @@ def main(options: argparse.Namespace) -> int:
         lock_products()  # build/audit is one folder
     made = [name for name in names if Product(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)
-    report = Product(plan, REPORT, quality)
-    if not options.panels and report.is_made() and (fault := report.fault(render=False)):
+    report = None if options.panels else Product(plan, REPORT, quality)
+    if report and report.is_made() and (fault := report.fault(render=False)):
         faults.append(fault)
     for fault in faults:
         alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)
@@ -225,7 +225,9 @@ def main(options: argparse.Namespace) -> int:
     states = Counter(fault.state for fault in faults)
     listed = ", ".join(f"{number} {state}" for state, number in states.items()) or "all hold"
     if made:
-        print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed}")
+        print(
+            f"{len(made)} panel{'s' * (len(made) > 1)} with {len(runs_of(plan, made, quality))} results: {listed}"
+        )
     broken = states.keys() - {"not checked"}
     if broken & {"stale", "missing"}:
         print(f"make report {options.effort} makes stale and missing files")

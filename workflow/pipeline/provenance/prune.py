@@ -59,7 +59,7 @@ def main(options: argparse.Namespace) -> int:
     number = number_missing(options.quality, options.plan, files)
     if number and not options.dry and not options.force:
         print(
-            f"{number} planned results are missing, and {len(files)} files are not planned: make figures "
+            f"{number} planned results are missing, and {len(files)} files are not planned: make report "
             f"{options.effort} first; to remove them now, make prune {options.effort} FORCE=yes"
         )
         return 3
