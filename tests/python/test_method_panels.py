@@ -67,15 +67,10 @@ def test_stability() -> None:
     1.001 times the exact ones; chains in two units of length that agree up to t = 10, and differ by 1 % later."""
     runs = []
     for rule, factor in (("elastic", 0.1), ("printed", 1.0)):
-        for run, options in (
-            ("rounding", {"sigma": 0.3}),
-            ("rounding", {"sigma": 0.5}),
-            ("mass-ratio", {"sigma": 0.99}),
-        ):
-            for time in (1.0, 100.0) if run == "rounding" else (100.0,):
-                drift = {"energy_drift": factor * time * 1e-16, "momentum_drift": factor * time * 3e-16}
-                given = RING | options | {"rule": rule, "observation_time": time}
-                runs.append(result(f"{run}_rule={rule}_{options}_{time}", given, **drift))
+        for time in (1.0, 100.0):
+            drift = {"energy_drift": factor * time * 1e-16, "momentum_drift": factor * time * 3e-16}
+            given = RING | {"sigma": 0.3, "rule": rule, "observation_time": time}
+            runs.append(result(f"rounding_rule={rule}_{time}", given, **drift))
     baths = CHAIN | {
         "cells": 4,
         "nu_left": 10.0,
@@ -95,7 +90,7 @@ def test_stability() -> None:
             energy = 300.0 * unit * (1.01 if (unit, time) == (9, 100) else 1)
             given = RING | {"observation_time": time, "temperature": 500 * unit}
             runs.append(result(f"{series}_t={time}", given, particle_energy=energy))
-    (drifts, masses, currents, partings), table, caption = draw("stability", runs)
+    (drifts, currents, partings), table, caption = draw("stability", runs)
     of_collisions = [
         (
             [100, 100],
@@ -106,7 +101,6 @@ def test_stability() -> None:
         for size in (1, 3)
     ]
     assert_points(drifts, *of_collisions)
-    assert_points(masses, *(([0.01], [f * s * 1e-14], [f * s * 1e-16]) for f in (0.1, 1) for s in (1, 3)))
     assert_points(currents, ([1] * 4, np.arange(4)[::-1], [10.01] * 4))
     assert_points(partings, ([100] * 3, [1e-17, 1e-17, 0.01], [0, 0, 0]))
     assert [*table.limit.dropna()] == [

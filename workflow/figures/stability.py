@@ -101,14 +101,15 @@ def partings(results: Sequence[Result]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def draw_drifts(axes: Axes, x: str, table: pd.DataFrame) -> None:
+def draw_drifts(axes: Axes, table: pd.DataFrame) -> None:
     """Plots drifts of the energy, and with open symbols of the momentum."""
     for rule, (marker, color) in RULES.items():
         part = table[table.rule == rule]
         for name, face in (("energy_drift", color), ("momentum_drift", "white")):
             label = f"{name.partition('_')[0]}, {rule}"
-            axes.errorbar(part[x], part[name], **style.points(marker, color, face, label=label))
-    axes.set(xscale="log", yscale="log", ylabel="relative change")
+            axes.errorbar(part.collisions, part[name], **style.points(marker, color, face, label=label))
+    axes.set(xscale="log", yscale="log", xlabel="collisions of a chain", ylabel="relative change")
+    axes.legend(loc="upper left")
 
 
 def draw_limits(axes: Axes, table: pd.DataFrame) -> None:
@@ -147,26 +148,18 @@ def caption(walks: pd.DataFrame, pairs: pd.DataFrame) -> str:
     longest = walks[walks.observation_time == walks.observation_time.max()].set_index("rule").energy_drift
     return f"""
         (a) In {scientific(walks.collisions.max())} collisions at σ = 0.3 the energy changes by {scientific(longest["elastic"])} as computed here, by {scientific(longest["printed"])} by the
-        paper's formula. (b) Next to σ = ±1. (c) Energy current over that of the limit; at γ = 10⁻³ a term of order γ is seen. (d) In two units of length trajectories
+        paper's formula. (b) Energy current over that of the limit; at γ = 10⁻³ a term of order γ is seen. (c) In two units of length trajectories
         {parted(pairs)} (dotted: one error). {ERRORS}"""
 
 
-@plots(f"rounding mass-ratio unit tripled {' '.join(LIMITS)}")
+@plots(f"rounding unit tripled {' '.join(LIMITS)}")
 def draw(results: Sequence[Result]) -> Parts:
-    of = {
-        name: [result for result in results if result.series == name] for name in ("rounding", "mass-ratio")
-    }
-    walks, masses = drifts(of["rounding"]), drifts(of["mass-ratio"])
+    walks = drifts([result for result in results if result.series == "rounding"])
     known = limits([result for name in LIMITS for result in results if result.series == name])
     pairs = partings([result for result in results if result.series in ("unit", "tripled")])
-    worse = walks[walks.sigma == walks.sigma.min()]
-    figure, axes = plt.subplot_mosaic("ab;cd", figsize=(2 * style.COLUMN, 2 * style.HEIGHT))
-    draw_drifts(axes["a"], "collisions", worse)
-    axes["a"].set_xlabel("collisions of a chain")
-    axes["a"].legend(loc="upper left")
-    draw_drifts(axes["b"], "distance", masses.assign(distance=1 - masses.sigma.abs()))
-    axes["b"].set_xlabel(r"$1 - |\sigma|$")
-    draw_limits(axes["c"], known)
-    draw_partings(axes["d"], pairs)
-    style.letter(*axes.values())
-    return figure, pd.concat([walks, masses, known, pairs]), caption(worse, pairs)
+    figure, panels = plt.subplots(1, 3, figsize=(3 * style.COLUMN, style.HEIGHT))
+    draw_drifts(panels[0], walks)
+    draw_limits(panels[1], known)
+    draw_partings(panels[2], pairs)
+    style.letter(*panels)
+    return figure, pd.concat([walks, known, pairs]), caption(walks, pairs)
