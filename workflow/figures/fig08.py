@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, parameters
+from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error, local_exponents
 from workflow.lib.load import Result
@@ -64,19 +64,20 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     axes.annotate(name, end, (4, 0), textcoords="offset points", size=style.label_size(), va="center")
 
 
-def ends(table: pd.DataFrame, gamma: str) -> str:
-    """The first and the last local exponent of a gamma."""
+def course(table: pd.DataFrame, gamma: str) -> str:
+    """The largest and the last local exponent of a gamma."""
     known = table[table.gamma == gamma].dropna(subset="between")
     if known.empty:
         return "not measured"
-    shown = known.iloc[[0, -1]].drop_duplicates("cells")
-    return listed(map(format_with_error, shown.exponent_to_next, shown.exponent_to_next_error))
+    rows = known.loc[[known.exponent_to_next.idxmax(), known.index[-1]]]
+    largest, last = map(format_with_error, rows.exponent_to_next, rows.exponent_to_next_error)
+    return f"at most {largest}" + f", in the end {last}" * (largest != last)
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         The paper plots the conductivity κ = −J_U N/(T_N − T_1) and reads N^(1/3) at γ = N and N at γ = 1 ({baths(results[0])}, λ = 1/N,
-        {parameters(results, "sigma")}). Here the first and last exponents (b) are {ends(table, "N")} at γ = N and {ends(table, "1")} at γ = 1. (a) The blue
+        {parameters(results, "sigma")}). Here exponents (b) are {course(table, "N")} at γ = N, and {course(table, "1")} at γ = 1. (a) The blue
         line shows the mean field. {ERRORS}"""
 
 

@@ -149,15 +149,20 @@ def draw(results: Sequence[Result]) -> Parts:
     figure, panels = plt.subplots(1, 2, figsize=(1.6 * style.COLUMN, style.HEIGHT))
     draw_chains(panels[0], chains, look)
     draw_rings(panels[1], control, look)
-    for _, other in table[(table.rule == "elastic") & ~table.index.isin(control.index)].groupby("zeta"):
+    others = [
         panels[1].errorbar(other.middle, other.local_exponent - 1, other.local_exponent_error, **OTHERS)
+        for _, other in table[(table.rule == "elastic") & ~table.index.isin(control.index)].groupby(
+            ["zeta", "mass"]
+        )
+    ]
     gas = rf"$\sigma = {format_number(float(of_rings[0].parameters['sigma']))}$, $\zeta = {broken.zeta:g}$"
     one = next(result for result in results if result not in of_rings)
     sigma, spacing = float(one.parameters["sigma"]), run_parameters.spacing(one)[1]
     of_chains = rf"chains, $\sigma = {sigma:g}$, $\lambda = {spacing}$"
     for axes, text in zip(panels, (of_chains, f"rings, {gas}"), strict=True):
         axes.set_title(text, size=style.label_size())
-    panels[0].errorbar([], [], [], label="no noise, other gases", **OTHERS)
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    handles, labels = panels[0].get_legend_handles_labels()
+    labels += ["no noise, other gases"] * bool(others)
+    figure.legend([*handles, *others[:1]], labels, loc="outside upper center", ncols=3)
     style.letter(*panels)
     return figure, pd.concat([chains, table]), caption(chains, control, cases)
