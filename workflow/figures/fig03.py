@@ -66,8 +66,8 @@ def caption(results: Sequence[Result], outgoing: float) -> str:
     jumps = listed(f"{format_number(paper['jump'].mean[index])} at {end}" for index, end, *_ in ENDS)
     return f"""
         The paper plots the flux F(p, x) and finds a jump at p = 0 ({parameters([paper], "sigma", "gamma")}, {baths(paper)}). (a) Here it is {jumps}.
-        (b) Each half is divided by the Gaussian of its rate and second moment. The injected halves are Gaussian; the outgoing ones deviate
-        by up to {outgoing:.2g} % where F exceeds {100 * OFTEN:g} % of its largest value (dotted: equal temperatures)."""
+        (b) Halves over the Gaussian of their rate and second moment: outgoing ones deviate by up to {outgoing:.2g} % where F exceeds
+        {100 * OFTEN:g} % of its maximum (dotted: equal temperatures)."""
 
 
 @plots("paper equal")

@@ -69,10 +69,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         far = part.loc[part.deviation.abs().idxmax()]
         most[name] = format_with_error(far.deviation, far.mu_error)
     return f"""
-        The paper plots the probability μ that a particle keeps its direction in a scattering and finds arccos(σ)/π ({parameters(results, "cells", "gamma", "temperature")}).
-        (b) Here μ differs by {most.get("paper", "(unknown)")} at most for |σ| ≤ 0.9; with total momentum Π = 0 by {most.get("zero-momentum", "(unknown)")}; with 320 particles per
-        cell by {most.get("dense", "(unknown)")}. Dashes: the law at the conserved Π; at σ = 0.99
-        scatterers are not yet as hot as particles. {ERRORS}"""
+        The paper plots the probability μ that a particle keeps its direction and finds arccos(σ)/π ({parameters(results, "cells", "gamma", "temperature")}).
+        (b) Here μ differs by {most.get("paper", "(unknown)")} at most for |σ| ≤ 0.9; with total momentum Π = 0 by {most.get("zero-momentum", "(unknown)")}; with n = 320 by {most.get("dense", "(unknown)")}. Dashes: the law at the conserved Π; at σ = 0.99
+        scatterers are still cold. {ERRORS}"""
 
 
 @plots("paper zero-momentum dense")

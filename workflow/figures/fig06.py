@@ -100,9 +100,7 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     error = np.hypot.reduce(tail.tau * tail.density_error) / weight.sum()
     expected = 50 * np.pi / int(result.parameters["particles_per_cell"])
     excess = format_with_error(100 * (mean - 1), 100 * error)
-    return (
-        f" At σ = 0 its tail is {excess} % above n → ∞; momenta held by scatterers explain {expected:.2g} %."
-    )
+    return f" At σ = 0 its tail is {excess} % above n → ∞; held momenta explain {expected:.2g} %."
 
 
 def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFrame]) -> str:
@@ -114,8 +112,7 @@ def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFr
     younger = format_number(results[0].parameters["relaxation_time"] / young.parameters["relaxation_time"])
     return f"""
         The paper gives the density Ψ(τ) of waiting times exponents {powers} ({parameters(results, "gamma", "particles_per_cell")}). Here
-        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Black: fitted powers. Open: errors above {100 * UNSURE:.0f} %; triangles:
-        above the frame. {ERRORS}"""
+        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %; triangles: outside. {ERRORS}"""
 
 
 @plots("all young")
