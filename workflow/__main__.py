@@ -121,10 +121,10 @@ def prepare(target: str, options: argparse.Namespace) -> None:
         if target == "build" or not has_results(target, options):
             compile_programs(target, options)
     options.plan = load_plan(options.quality)
-    options.panels = panels_of(target, options)
+    options.panels = requested_panels(target, options)
 
 
-def panels_of(target: str, options: argparse.Namespace) -> list[str]:
+def requested_panels(target: str, options: argparse.Namespace) -> list[str]:
     """The requested panels; for the target figures those of the paper."""
     return default_panels(load_plan(options.quality)) if target == "figures" else options.panels
 
@@ -133,7 +133,7 @@ def has_results(target: str, options: argparse.Namespace) -> bool:
     """Whether all results exist, so that rendering needs no compiler."""
     with suppress(ConfigurationError):  # perhaps by former programs
         plan = load_plan(options.quality)
-        return not missing(runs_of(plan, panels_of(target, options) or plan, options.quality))
+        return not missing(runs_of(plan, requested_panels(target, options) or plan, options.quality))
     return False
 
 
