@@ -5,7 +5,7 @@ from typing import Any
 
 MODULES = {
     "load": "workflow.lib.load",
-    "load_panel": "workflow.pipeline.results",
+    "load_panel": "workflow.pipeline.load_panel",
 }
 
 

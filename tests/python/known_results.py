@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from tests.python.conftest import ROOT
-from workflow.claims.data import MissingError
+from workflow.lib.identity import panel_of
 from workflow.lib.load import Quantity, Result
 from workflow.pipeline.described import described
-from workflow.pipeline.plan import Run, data_path, load_plan
-from workflow.report.planned import Planned
+from workflow.pipeline.plan import Run, load_plan
+from workflow.study.results import MissingError, Planned
 
 DEFAULTS = {
     "cells": "continuum",
@@ -44,8 +44,8 @@ class Known(Planned):
         self.plan = load_plan(quality)
         self.loaded = {}
 
-    def _load(self, panel: str, run: Run) -> Result:
-        path = data_path(self.quality, panel, run)
+    def _load(self, run: Run) -> Result:
+        path, panel = run.path, panel_of(run.path)
         if panel not in self.fills:
             raise MissingError(f"{path} is missing")
         if path not in self.loaded:

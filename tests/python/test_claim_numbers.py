@@ -17,9 +17,9 @@ import tests.python.claim_truths_closed  # noqa: F401  # adds its cases
 from tests.python.claim_truths import CASES, Case
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, drawn, truth
-from workflow.claims import judge
-from workflow.claims.verdict import Estimate
 from workflow.lib.load import Quantity
+from workflow.study import judge
+from workflow.study.verdict import Estimate
 
 TRIALS, LEVEL = 100, 1e-5
 COMPUTED = "fluxes.jump_and_halves"  # without statistical error

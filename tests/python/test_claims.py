@@ -9,12 +9,12 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
-from workflow.claims import growth, judge
-from workflow.claims.data import MissingError, combination, estimate, ratio
-from workflow.claims.fluxes import largest_distance
-from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.load import FormatError
-from workflow.pipeline.provenance.compare import error_of_difference
+from workflow.pipeline.compare import error_of_difference
+from workflow.study.claims import growth, judge
+from workflow.study.claims.fluxes import largest_distance
+from workflow.study.results import MissingError, combination, estimate, ratio
+from workflow.study.verdict import Estimate, Outcome
 
 ROWS = judge.read_claims(ROOT)
 

@@ -2,22 +2,21 @@
 
 import json
 import subprocess
-import sys
 from pathlib import Path
 
 import pandas as pd
 import pytest
+from workflow.lib.job import Job, render_all
 
-from tests.python.conftest import ROOT, command_line
+from tests.python.conftest import command_line
 from workflow.lib.caption import DOUBTS
 from workflow.lib.identity import panel_identity, read_identity_line, sha256, sources_of_panel
-from workflow.lib.job import Job
 from workflow.lib.load import NOT_TESTED, load
 
 
 def render(script: str, stem: Path, paths: list[Path]) -> None:
-    job = Job(script, str(stem), [*map(str, paths)])
-    subprocess.run([sys.executable, "-P", "-m", "workflow.lib.render", job.json], cwd=ROOT, check=True)
+    (done,) = render_all([Job(script, str(stem), [*map(str, paths)])])
+    assert done[1] == ""
 
 
 def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: Path) -> None:

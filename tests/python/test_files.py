@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.files import format_os_error, write_atomically
+from workflow.render.files import format_os_error, write_atomically
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

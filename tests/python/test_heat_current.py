@@ -8,8 +8,8 @@ import pytest
 
 from tests.python.conftest import ROOT, Measure, Program
 from workflow.lib.load import Quantity, Result
-from workflow.physics.rings import tabulate
 from workflow.physics.sound import Chain
+from workflow.study.rings import tabulate
 
 T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
 ZETA = FUGACITY * LENGTH

@@ -54,5 +54,5 @@ def test_imports_run_one_way() -> None:
 
 def test_only_the_picture_of_the_verdicts_imports_claims() -> None:
     scripts = (ROOT / "workflow/figures").glob("*.py")
-    assert [path.stem for path in scripts if "workflow.claims" in path.read_text()] == ["verdicts"]
+    assert [path.stem for path in scripts if "workflow.study.claims" in path.read_text()] == ["verdicts"]
     assert {"workflow/claims", "data/claims.csv"} <= {*load_plan("paper")["verdicts"].reads}

@@ -7,10 +7,11 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
-from workflow.figures import fig01_inset, fig06, fig09, momentum
+from workflow.figures import fig01_inset, fig06, fig09
 from workflow.lib.load import Quantity, Result
 from workflow.physics.closed import quasi_stationary
 from workflow.pipeline.plan import Run
+from workflow.study import momentum
 
 
 def test_slopes_of_a_logarithm_are_its_factor() -> None:

@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.claims.judge import Judgement, changed, read_claims
-from workflow.claims.verdict import Band, Estimate, Outcome, Verdict
 from workflow.lib.columns import TableError
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import FormatError
-from workflow.report import typeset
-from workflow.report.planned import Planned
-from workflow.report.write import GALLERY, in_rows, inches, numbers_file, rendered
+from workflow.study import typeset
+from workflow.study.judge import Judgement, changed, read_claims
+from workflow.study.report import GALLERY, inches, numbers_file, rendered
+from workflow.study.results import Planned
+from workflow.study.verdict import Band, Estimate, Outcome, Verdict
 
 NUMBERS = (Estimate("first", 0.5, 0.001), Estimate("second", 0.25, 0.002))
 BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided": Band(0, 0.5)}
@@ -149,16 +149,10 @@ def test_an_undecided_answer_says_so() -> None:
     assert "at quality paper:" not in page
 
 
-def test_pictures_have_one_scale_and_narrow_ones_share_a_row() -> None:
-    """Detected mistakes: panels beyond the paper share a row with those of the paper, in other sections; the
-    second of three narrow panels has a row of its own."""
+def test_pictures_have_one_scale() -> None:
     assert inches(b'<svg width="244.8pt" height="489.6pt" viewBox="0 0 1 1">') == pytest.approx((3.4, 6.8))
     with pytest.raises(FormatError, match="states no size"):
         inches(b'<svg width="100%">')
-    sizes = ["narrow", "narrow", "narrow", "wide", "narrow", "medium", "narrow", "narrow"]
-    panels = [{"size": size, "beyond": k == 7} for k, size in enumerate(sizes)]
-    alone = [k for k, panel in enumerate(in_rows(panels)) if "alone" in panel["size"]]
-    assert alone == [2, 4, 6, 7]
 
 
 def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> None:

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from workflow.claims.verdict import (
+from workflow.lib.fit import format_with_error
+from workflow.study.verdict import (
     Band,
     Estimate,
     Outcome,
@@ -16,7 +17,6 @@ from workflow.claims.verdict import (
     level_of_each,
     with_systematic,
 )
-from workflow.lib.fit import format_with_error
 
 BAND = Band(-1, 1)
 LEVEL = 0.1

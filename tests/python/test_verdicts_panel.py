@@ -16,14 +16,14 @@ from scipy.stats import t as student
 from tests.python.claim_truths import CASES
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
-from workflow.claims.data import Data
-from workflow.claims.judge import Judgement, function_of, of_release, read_claims
-from workflow.claims.verdict import Band, Estimate, Verdict
-from workflow.figures import verdicts
 from workflow.lib import style
 from workflow.lib.columns import as_csv
 from workflow.lib.identity import NUMBERS
 from workflow.pipeline.plan import load_plan
+from workflow.study import verdicts
+from workflow.study.judge import Judgement, function_of, of_release, read_claims
+from workflow.study.results import Results
+from workflow.study.verdict import Band, Estimate, Verdict
 
 LEVEL = 0.01
 HALF = student.isf(LEVEL / 2, 9)  # half of an interval over its standard error
@@ -200,7 +200,7 @@ def test_the_panel_has_the_results_of_all_claims(name: str) -> None:
     numbers = function_of({"function": name})(known)
     results = [result for result in known.loaded.values() if result.path.parent.name in uses]
     mine = [replace(one, path=one.path.with_name(f"mine_{one.path.name}")) for one in results]
-    assert repr(function_of({"function": name})(Data([*mine, *results]))) == repr(numbers)
+    assert repr(function_of({"function": name})(Results([*mine, *results]))) == repr(numbers)
 
 
 def test_only_other_qualities_depend_on_the_numbers_of_the_release() -> None:

@@ -18,7 +18,7 @@ import pytest
 import snakemake.cli
 
 from workflow.lib.identity import IDENTITY
-from workflow.pipeline.provenance import audit, verify
+from workflow.pipeline import audit, verify
 
 ROOT = Path(__file__).parents[2]
 # Imported here, so that each fork has them and what they import already.

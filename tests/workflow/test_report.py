@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from workflow.claims.judge import judge_all, read_claims
-from workflow.claims.verdict import Outcome
 from workflow.lib.identity import ROOT, read_identity_line
-from workflow.pipeline.plan import load_plan, runs_of, stem_of
-from workflow.report.planned import Planned
-from workflow.report.write import write
+from workflow.pipeline.plan import load_plan, runs_of
+from workflow.study.judge import judge_all, read_claims
+from workflow.study.report import write
+from workflow.study.results import Planned
+from workflow.study.verdict import Outcome
 
 PLAN = load_plan("smoke")
 IDS = {
@@ -118,7 +118,7 @@ def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:
     for link in [*links, *re.findall(r'<img [^>]*src="([^"]*)"', text)]:
         assert link.startswith("https://doi.org/") or link in names or link.strip("#") in ids, link
     for panel in PLAN:
-        small, original = gallery / f"{panel}.png", ROOT / f"{stem_of(panel, 'smoke')}.png"
+        small, original = gallery / f"{panel}.png", ROOT / f"figures/smoke/{panel}.png"
         assert read_identity_line(small.read_bytes()) == read_identity_line(original.read_bytes())
         with Image.open(small, formats=["PNG"]) as picture, Image.open(original, formats=["PNG"]) as large:
             assert picture.width == min(1440, large.width)
@@ -146,8 +146,7 @@ def test_no_quality_contradicts_another(smoke: Path, gallery: Path) -> None:
             for line in csv.DictReader(file):
                 verdicts[line["claim"], line["kind"]][quality] = line["claim_verdict"]
     for quality in ("standard", "paper"):
-        plan = load_plan(quality)
-        if all((smoke / path).exists() for path in runs_of(plan, plan, quality)):
+        if all((smoke / path).exists() for path in runs_of(load_plan(quality).values())):
             for judgement in judge_all(Planned(quality, smoke)):
                 key = judgement.row["numbers"], judgement.row["kind"]
                 verdicts[key][quality] = judgement.verdict.outcome.value

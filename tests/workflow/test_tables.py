@@ -18,8 +18,8 @@ from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv
 from workflow.lib.load import NOT_REACHED, Quantity, Result, load
 from workflow.lib.units import UnitsError
-from workflow.pipeline.plan import data_of, load_plan
-from workflow.pipeline.results import load_panel
+from workflow.pipeline.load_panel import load_panel
+from workflow.pipeline.plan import load_plan
 
 SHIPPED = {path.stem for path in (ROOT / "docs/gallery").glob("*.png")}  # not those of the user
 PLAN = {
@@ -47,7 +47,7 @@ def tables(folder: Path, panel: str) -> list[pd.DataFrame]:
     """Tables from the results in the default units and in other ones. All runs missed their targets, which
     no panel and no caption may need."""
     draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
-    given = [load(folder / path) for path in data_of(PLAN, panel, "smoke")]
+    given = [load(folder / path) for path in PLAN[panel].data]
     missed = [replace(result, provenance=result.provenance | {"converged": NOT_REACHED}) for result in given]
     style.apply()
     drawn = []
@@ -130,7 +130,7 @@ def test_every_panel_is_rendered_from_one_replica(smoke: Path, panel: str) -> No
         nothing = np.full_like(quantity.mean, np.nan)
         return replace(quantity, standard_error=nothing, count=np.ones_like(quantity.count))
 
-    results = [load(smoke / path) for path in data_of(PLAN, panel, "smoke")]
+    results = [load(smoke / path) for path in PLAN[panel].data]
     single = [
         replace(result, quantities={name: alone(each) for name, each in result.quantities.items()})
         for result in results

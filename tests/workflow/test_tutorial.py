@@ -10,7 +10,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project, share_packages
 from workflow.lib.load import load
-from workflow.pipeline.plan import CONFIGURATION, load_plan, record_of
+from workflow.pipeline.plan import CONFIGURATION, load_plan
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
@@ -79,7 +79,7 @@ def test_an_observable_of_your_own(own: Project) -> None:
     counted = float(result["rate"].mean) * particles * 10 * 8
     assert counted == pytest.approx(result.provenance["events"], rel=1e-12)
     # The other panels stay as they are.
-    assert record_of(load_plan("smoke"), "fig05", "smoke") in own.entry("figures", "DRY=yes")
+    assert load_plan("smoke")["fig05"].record_path in own.entry("figures", "DRY=yes")
 
 
 def test_configuration_of_the_tutorial_gives_its_runs(tmp_path) -> None:

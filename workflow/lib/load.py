@@ -8,13 +8,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, SupportsIndex
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import h5py
 import numpy as np
-import pandas as pd
 
-from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of
+if TYPE_CHECKING:
+    import pandas as pd
+
+from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of, series_of
 from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
 
@@ -79,8 +81,10 @@ class Quantity:
         """Degrees of freedom of the standard error. Raises FormatError for a computed quantity."""
         return self.replicas - 1.0 - self.control_variates
 
-    def to_frame(self) -> pd.DataFrame:
+    def to_frame(self) -> "pd.DataFrame":
         """One row per value; attrs["units"] maps columns to theirs."""
+        import pandas as pd  # noqa: PLC0415  0.4 s, which make status does not need
+
         grids = np.meshgrid(*self.axes.values(), indexing="ij")
         axes = {name: grid.ravel() for name, grid in zip(self.axes, grids, strict=True)}
         frame = pd.DataFrame(axes | {name: array.ravel() for name, array in self.arrays().items()})
@@ -121,7 +125,7 @@ class Result:
     @property
     def series(self) -> str:
         """Name of the series of the run, which is followed by `_option=value`."""
-        return re.sub(r"_[a-z0-9-]+=.*", "", self.run)
+        return series_of(self.run)
 
     def ends(self, name: str) -> tuple[float, float]:
         """A parameter of the left and of the right bath."""

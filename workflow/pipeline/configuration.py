@@ -1,8 +1,9 @@
-"""Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs."""
+"""Loads YAML files of panels, as paper.yaml, and quality/*.yaml beside them, and validates them against the
+declared options of the programs."""
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,18 +13,18 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from workflow.lib.files import format_os_error
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.polynomial import POLYNOMIAL
 from workflow.pipeline.sources import programs as names_of_programs
+from workflow.render.files import format_os_error
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
 Keys = tuple[Any, ...]  # path in nested mappings and lists
 
-CONFIGURATION = ROOT / "workflow/config"
+PANELS = (ROOT / "workflow/config/paper.yaml", ROOT / "workflow/study/study.yaml")
 ERROR = "error"  # relative error, in place of a number of replicas
 EFFORT_OPTIONS = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
 ALSO_PHYSICS = ("cells", "observation-time")  # given in paper.yaml, too
@@ -77,23 +78,23 @@ class Document:
         return position
 
 
-def read(folder: Path, name: str) -> Document:
+def read(path: Path) -> Document:
     """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys and rounding errors."""
     try:
-        text = (folder / name).read_text("utf-8")
-        require_short(text, f"{_shown(folder / name)}:")
+        text = path.read_text("utf-8")
+        require_short(text, f"{_shown(path)}:")
         root = SAFE.compose(text)
         # This also merges the mappings of the node.
         content = SAFE.constructor.construct_document(root) if root else None
-        return Document(_shown(folder / name), root, content)
+        return Document(_shown(path), root, content)
     except OSError as error:
         raise ConfigurationError(format_os_error(error)) from error
     except MarkedYAMLError as error:
         mark = error.problem_mark
         position = f"{mark.line + 1}:{mark.column + 1}"
-        raise ConfigurationError(f"{_shown(folder / name)}:{position}: {error.problem}") from error
+        raise ConfigurationError(f"{_shown(path)}:{position}: {error.problem}") from error
     except (YAMLError, UnicodeDecodeError) as error:
-        raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
+        raise ConfigurationError(f"{_shown(path)}: {' '.join(str(error).split())}") from error
 
 
 def require_short(text: str, where: str = "") -> None:
@@ -114,22 +115,25 @@ def _shown(path: Path) -> str:
     return str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
 
 
-def panel_names(folder: Path = CONFIGURATION) -> list[str]:
-    """Names of the panels in paper.yaml, also before the programs are compiled. Raises ConfigurationError."""
-    paper = read(folder, "paper.yaml")
-    paper.check(_object({"panels": NAMED}) | {"required": ["panels"]})
-    return [*paper.content["panels"]]
+def panel_names(files: Sequence[Path] = PANELS) -> list[str]:
+    """Names of the panels, also before the programs are compiled. Raises ConfigurationError."""
+    names = []
+    for document in (read(file) for file in files if file.exists()):
+        document.check(_object({"panels": NAMED}) | {"required": ["panels"]})
+        names += [*document.content["panels"]]
+    return names
 
 
-def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
-    """Validated `paper.yaml` and `quality/<quality>.yaml`. Options of a program that is not compiled are not
-    validated: reading needs no compiler, and nothing is computed before. Raises ConfigurationError."""
+def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document, Document]:
+    """Validated panels of a YAML file, and their efforts in `quality/<quality>.yaml` beside it, which has the
+    default effort for the first of the files. Options of a program that is not compiled are not validated:
+    reading needs no compiler, and nothing is computed before. Raises ConfigurationError."""
     programs: dict[str, Schema] = {name: {} for name in names_of_programs()} | options_of_programs()
-    paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
-    paper.check(_panels(programs))
-    paper.check(_physics(paper.content, programs))
-    efforts.check(_efforts(paper.content, programs))
-    return paper, efforts
+    panels, efforts = read(file), read(file.parent / f"quality/{quality}.yaml")
+    panels.check(_panels(programs))
+    panels.check(_physics(panels.content, programs))
+    efforts.check(_efforts(panels.content, programs, required=["default"] if file == first else ["panels"]))
+    return panels, efforts
 
 
 def programs_of(panel: dict[str, Any]) -> dict[str, str]:
@@ -137,6 +141,16 @@ def programs_of(panel: dict[str, Any]) -> dict[str, str]:
     return {
         series: own.get("program", panel.get("program")) for series, own in panel.get("series", {}).items()
     }
+
+
+def with_effort(options: Options, *efforts: Options) -> Options:
+    """Options with efforts, of which later ones replace earlier ones; of replicas and error, each of which
+    determines the number of replicas, the last one given counts."""
+    for effort in efforts:
+        if {"replicas", ERROR} & effort.keys():
+            options = {key: value for key, value in options.items() if key not in ("replicas", ERROR)}
+        options = options | effort
+    return options
 
 
 def arguments(options: Options) -> list[str]:
@@ -158,8 +172,7 @@ def _panels(programs: dict[str, Schema]) -> Schema:
             "program": program,
             "script": NAME,
             "uses": NAMES,
-            "beyond": {"type": "boolean", "allowed": "true or false"},
-            "reads": NAMES,
+            "inputs": NAMES,
             "common": {"type": "object"},
             "series": NAMED | {"additionalProperties": series},
         }
@@ -184,9 +197,9 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     return {"properties": {"panels": {"properties": panels}}}
 
 
-def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Schema of quality/*.yaml: the effort of all series of a panel with replicas, and that of single
-    series."""
+def _efforts(paper: dict[str, Any], programs: dict[str, Schema], required: list[str]) -> Schema:
+    """Schema of quality/*.yaml: the default effort of all sampled runs, that of all sampled series of a panel,
+    and that of single series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT_OPTIONS}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
@@ -201,7 +214,7 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
         panels[name] = _object({**every, "omit": omit, **of_series}) | missing
     default = _object({name: every[name] for name in ("replicas", ERROR)})
     listed = _object(panels) | {"unknown": "is not in paper.yaml as a panel: remove it here"}
-    return _object({"default": default, "panels": listed}) | {"required": ["default"]}
+    return _object({"default": default, "panels": listed}) | {"required": required}
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:

@@ -2,7 +2,6 @@
 --describe)."""
 
 import json
-from functools import cache
 from typing import Any
 
 from workflow.lib.identity import ROOT
@@ -16,14 +15,16 @@ class BuildError(ValueError):
 DESCRIPTIONS = ROOT / "build/describe"
 
 
-@cache
+def describe(program: str) -> dict[str, Any]:
+    """What a compiled program prints with --describe; docs/format.md has the keys. Raises OSError."""
+    return dict(json.loads((DESCRIPTIONS / f"{program}.json").read_text("utf-8")))
+
+
 def described() -> dict[str, dict[str, Any]]:
-    """What each compiled program prints with --describe; docs/format.md has the keys."""
-    paths = {name: DESCRIPTIONS / f"{name}.json" for name in programs()}
-    return {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
+    """Descriptions of all compiled programs, by name."""
+    return {name: describe(name) for name in programs() if (DESCRIPTIONS / f"{name}.json").exists()}
 
 
-@cache
 def options_of_programs() -> dict[str, dict[str, dict[str, Any]]]:
     """JSON Schema of every option that determines a result, by compiled program and name."""
     return {

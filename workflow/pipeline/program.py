@@ -5,13 +5,14 @@ import shutil
 import signal
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 from workflow.lib.identity import ROOT
 from workflow.pipeline.configuration import Options, arguments
-from workflow.pipeline.described import DESCRIPTIONS, BuildError, described
+from workflow.pipeline.described import DESCRIPTIONS, BuildError, describe
 from workflow.pipeline.plan import Run
-from workflow.pipeline.sources import programs, source_hash
+from workflow.pipeline.sources import is_sampled, programs, source_hash
 
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
@@ -34,6 +35,7 @@ def is_built(program: str) -> bool:
     return source_hash(program) in done.stdout
 
 
+@cache
 def require_built(program: str) -> None:
     """Raises BuildError."""
     if not is_built(program):
@@ -41,36 +43,38 @@ def require_built(program: str) -> None:
         raise BuildError(f"build/bin/{program} is {state}: run make build")
 
 
-def build() -> list[str]:
+def compile_programs() -> list[str]:
     """Compiles the programs unless all are built and described. CXX may choose another compiler, so that
-    the build is checked in any case. Returns the sources that do not compile if others do. Raises
-    CalledProcessError."""
+    the build is checked in any case. Returns the sources that do not compile if others do, after a message.
+    Raises CalledProcessError."""
 
     def unbuilt() -> list[str]:
         return [name for name in programs() if not is_built(name)]
 
     missing = unbuilt()
+    if not missing and "CXX" not in os.environ:
+        return []
     if missing:
         number = f"{len(missing)} program{'s' * (len(missing) > 1)}"
         print(f"Compiling {number}; all take about a minute on two cores", flush=True)
-    if missing or "CXX" in os.environ:
-        done = subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=False)
-        failed = [f"cpp/observables/{name}.cpp" for name in unbuilt()] if done.returncode else []
-        if not 0 < len(failed) < len(programs()):
-            done.check_returncode()
-        return failed
-    return []
+    done = subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=False)
+    failed = [f"cpp/observables/{name}.cpp" for name in unbuilt()] if done.returncode else []
+    if not 0 < len(failed) < len(programs()):
+        done.check_returncode()
+    if failed:
+        print(f"{', '.join(failed)}: not compiled, for the reason above", file=sys.stderr)
+    return failed
 
 
 def threads_of(run: Run) -> int:
     """Threads among which the replicas of a run are divided without waste."""
-    least = described()[run.program].get("least_replicas", 1) if "target-error" in run.options else 1
+    least = describe(run.program).get("least_replicas", 1) if "target-error" in run.options else 1
     return max(1, min(MOST_THREADS, int(run.options.get("replicas", least)) // REPLICAS_PER_THREAD))
 
 
 def command_line(run: Run, threads: int = 1) -> list[str]:
     """Command of a run as a list of words, without the option --output."""
-    conduct = ["--threads", str(threads), "--resume"] if run.replicated else []
+    conduct = ["--threads", str(threads), "--resume"] if is_sampled(run.program) else []
     return [f"build/bin/{run.program}", *arguments(run.options), *conduct]
 
 

@@ -1,1 +1,0 @@
-"""Where products come from, and whether they are fresh and unmodified."""

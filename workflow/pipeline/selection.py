@@ -1,0 +1,75 @@
+"""What a command selects: a quality, and an effort in place of that of its file."""
+
+import hashlib
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from workflow.lib.suggestion import suggestion
+from workflow.pipeline.configuration import ConfigurationError, Options, require_short, with_effort
+from workflow.pipeline.polynomial import NUMBER
+
+QUALITIES = ("smoke", "standard", "paper")
+DEFAULT_QUALITY = "standard"
+EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
+    "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
+    "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
+    "error": (NUMBER, float, "a number greater than 0 and less than 1, as 0.02 for 2 %"),
+}
+
+
+@dataclass(frozen=True)
+class Selection:
+    """A quality with the effort of the command line, by the name of its folders of data and figures:
+    `standard`, or `standard_seed=7_replicas=200`."""
+
+    name: str
+    quality: str
+    seed: int | None = None
+    replicas: int | None = None
+    error: float | None = None  # relative standard error of the target quantity of every run
+
+    @classmethod
+    def parse(cls, name: str) -> "Selection":
+        """Parses the name of the folder. Raises ConfigurationError."""
+        base, *given = name.split("_")
+        if base not in QUALITIES:
+            raise ConfigurationError(f"{base} is not a quality; choose one of {', '.join(QUALITIES)}")
+        values: dict[str, Any] = {}
+        for key, _, text in (word.partition("=") for word in given):
+            if key not in EFFORTS:
+                raise ConfigurationError(f"{key}={text} is no effort; {suggestion(key, EFFORTS)}")
+            if key in values:
+                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
+            pattern, number, allowed = EFFORTS[key]
+            if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
+                raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
+            require_short(text)
+            values[key] = number(text)
+        if "error" in values and "replicas" in values:
+            raise ConfigurationError(
+                "ERROR and REPLICAS both determine the number of replicas; give one of them"
+            )
+        return cls(name, base, **values)
+
+    @property
+    def arguments(self) -> str:
+        """Arguments of make that select this quality and effort."""
+        given = {"QUALITY": self.quality, **{key.upper(): getattr(self, key) for key in EFFORTS}}
+        return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
+
+    def with_effort(self, names: str, options: Options, scale: float | None) -> Options:
+        """Options of a sampled run with its effort as options of the program, and its seed. names: of panel
+        and run, or of the panel alone, from which the seed follows; scale: reference value of the error
+        where the target may be 0."""
+        given = {key: value for key in ("replicas", "error") if (value := getattr(self, key)) is not None}
+        options = with_effort(options, given)
+        if "error" in options:
+            options["target-error"] = options.pop("error")
+            options |= {} if scale is None else {"target-scale": scale}
+        return options | {"seed": seed_of(names if self.seed is None else f"{names}/{self.seed}")}
+
+
+def seed_of(text: str) -> int:
+    """Seed from a hash of names, which gives every run its own reproducible random streams."""
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")

@@ -1,0 +1,62 @@
+"""Compares results with reruns by programs that are compiled afresh, once for each state of the sources.
+
+Exit status: 0 if all agree, 1 if not, 3 if there is nothing to rerun or a rerun failed.
+"""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from workflow.lib.identity import identity_of
+from workflow.lib.load import FormatError, load
+from workflow.pipeline.compare import equal_values, least_probable
+from workflow.pipeline.lock import lock
+from workflow.pipeline.plan import Plan, runs_of
+from workflow.pipeline.program import ProgramError, execute
+from workflow.pipeline.sources import programs as all_programs
+from workflow.pipeline.sources import source_hash
+from workflow.render.files import missing
+
+BUILD = Path("build/verify")  # with a folder for each hash of the sources
+
+
+def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
+    """Reruns the results of the named panels, or a sample of all. Other commands may make products
+    meanwhile. Returns the exit status."""
+    runs = runs_of([plan[name] for name in names] or plan)
+    lacking = {*missing(runs)}
+    made = [path for path in runs if path not in lacking]
+    if not names:
+        made = random.sample(made, min(len(made), max(1, round(sample * len(made)))))
+    if not made:
+        print(f"Nothing to verify: run make figures {plan.selection.arguments}")
+        return 3
+    lock(BUILD)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # by which execute() stops the program
+    programs = sorted({runs[path].program for path in made})
+    fresh = BUILD / identity_of([source_hash(program) for program in all_programs()])
+    for former in (folder for folder in BUILD.iterdir() if folder.is_dir() and folder != fresh):
+        shutil.rmtree(former)
+    uncompiled = [program for program in programs if not (fresh / "bin" / program).exists()]
+    if uncompiled:
+        print(f"Compiling {', '.join(uncompiled)}", flush=True)
+        command = ["bash", "workflow/pipeline/environment/build.sh", *uncompiled]
+        if subprocess.run(command, env=os.environ | {"BUILD": str(fresh)}, check=False).returncode:
+            return 1
+    differing = failed = 0
+    for number, path in enumerate(made, 1):
+        run, again = runs[path], fresh / "again.h5"
+        try:
+            execute(run.program, run.options, again, "--overwrite", programs=fresh / "bin")
+            equal = equal_values(load(path), load(again))
+            differing += not equal
+            text = "equal" if equal else f"differs: {least_probable(load(path), load(again))}"
+        except (FormatError, ProgramError) as error:
+            text, failed = str(error), failed + 1
+        print(f"{number} of {len(made)}: {path}: {text}", flush=True)
+    print(f"{len(made)} results rerun: {differing} differ, {failed} could not be compared")
+    return 1 if differing else 3 if failed else 0

@@ -1,0 +1,128 @@
+"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and their record, PANEL.IDENTITY.json.
+
+Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute
+path. Each file has a line with panel, quality and identity. A panel has one record, which is written last:
+files without it are stale.
+"""
+
+import io
+import json
+import platform
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from workflow.lib.identity import ROOT, sha256, siblings
+from workflow.render.files import write_atomically
+from workflow.render.record import FORMER, identity_line, record_name
+
+CREATOR = "lorentz-gas"
+WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
+RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
+
+
+@dataclass(frozen=True)
+class Text:
+    title: str
+    caption: str  # text without line breaks
+
+
+@dataclass(frozen=True)
+class Parents:
+    identity: str  # of the panel
+    results: Sequence[Path]
+    sources: Mapping[str, str]  # hashes by path
+    doubts: Mapping[str, list[str]]  # reasons to doubt a result, by path
+
+
+def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
+    """Writes stem.pdf, .png, .svg, .csv and the record, all or none. table: text from columns.as_csv()."""
+    panel, quality = stem.name, stem.parent.name
+    line = identity_line(panel, quality, parents.identity)
+    pictures: dict[str, dict[str, Any]] = {
+        "pdf": {
+            "Title": text.title,
+            "Creator": CREATOR,
+            "Producer": CREATOR,
+            "Subject": line,
+            "Keywords": text.caption,
+            "CreationDate": None,
+        },
+        "png": {"Title": text.title, "Software": CREATOR, "Description": line, "Comment": text.caption},
+        "svg": {"Title": text.title, "Creator": CREATOR, "Description": line, "Date": None},
+    }
+    contents = {}
+    if layout := figure.get_layout_engine():
+        layout.execute(figure)
+    # With a layout engine, savefig would lay the figure out again for every format.
+    with mpl.rc_context({"figure.constrained_layout.use": False}):
+        figure.set_layout_engine(None)
+        for kind, metadata in pictures.items():
+            contents[kind] = _picture(figure, kind, metadata)
+    units, numbers = table.split("\n", maxsplit=1)
+    contents["csv"] = "\n".join(
+        [f"# {text.title}", units, f"# caption: {text.caption}", f"# {line}", numbers]
+    ).encode()
+    hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
+    record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
+    record |= {"commit": commit(), "renderer": renderer(), "doubts": dict(parents.doubts), "parents": hashes}
+    write_product(stem, parents.identity, contents, record)
+
+
+def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], record: dict[str, Any]) -> None:
+    """Writes the files of a panel or report by kind, and their record. The record of a former identity
+    moves to FORMER, where provenance finds it. Raises OSError."""
+    record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
+    text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+    path = stem.with_name(record_name(stem.name, identity))
+    for former in (sibling for sibling in siblings(path) if sibling != path):
+        archived = ROOT / FORMER / stem.parent.name / former.name
+        archived.parent.mkdir(parents=True, exist_ok=True)
+        former.replace(archived)
+    files = {stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()}
+    write_atomically(files | {path: text.encode()})
+
+
+def commit() -> str:
+    """Commit of the repository, with -dirty if tracked files have changed; empty without a repository."""
+    command = ["git", "--git-dir=.git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]
+    try:
+        return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    except OSError:  # no git
+        return ""
+
+
+def renderer() -> str:
+    """What the bytes of a picture depend on besides its parents: Python, kind of processor, versions of
+    packages."""
+    versions = ", ".join(f"{name} {version(name)}" for name in RENDERING)
+    return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
+
+
+def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format=kind, metadata=metadata)
+    return buffer.getvalue()
+
+
+def reduced(picture: Path) -> bytes:
+    """PNG for the gallery, with few colours, at most WIDTH wide, and the texts of the original."""
+    with Image.open(picture, formats=["PNG"]) as original:
+        texts = PngInfo()
+        for name, text in original.info.items():
+            if isinstance(name, str) and isinstance(text, str):
+                texts.add_text(name, text)
+        width = min(WIDTH, original.width)
+        size = (width, round(original.height * width / original.width))
+        scaled = original.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+        content = io.BytesIO()
+        scaled.quantize(COLORS, dither=Image.Dither.NONE).save(content, "PNG", optimize=True, pnginfo=texts)
+        return content.getvalue()

@@ -1,0 +1,51 @@
+"""Numbers, bands and text as the report prints them."""
+
+import math
+import re
+
+from markupsafe import Markup, escape
+
+from workflow.lib.caption import power_of_ten, scientific
+from workflow.lib.fit import format_with_error
+from workflow.study.verdict import Band, Estimate
+
+BOUND = " ± "
+MINUS = "\N{MINUS SIGN}"
+
+
+def typeset(text: str) -> Markup:
+    """Text as HTML, with superscripts after ^, subscripts after _, and typographic minus signs."""
+    power = r"\^(?:\(([^)]*)\)|([-−]?\d+\.\d+(?:\(\d+\))?|[-−]?\w+))"
+    text = re.sub(
+        power, lambda match: f"<sup>{match[1] or match[2]}</sup>", str(escape(text)).replace("&#39;", "'")
+    )
+    text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
+    return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
+
+
+def acceptance(band: Band) -> str:
+    low, high = (f"{edge:g}".replace("-", MINUS) for edge in (band.low, band.high))
+    if math.isinf(band.high):
+        return f"above {low}"
+    return f"below {high}" if math.isinf(band.low) else f"{low} to {high}"
+
+
+def value(number: Estimate) -> str:
+    """Number with its standard error and the bound on its systematic error in units of the last digit; ±
+    the bound without a standard error."""
+    if not number.error and abs(number.value) < number.systematic:
+        return f"0 to rounding{BOUND}{short(number.systematic)}"
+    size = max(abs(number.value), number.error, number.systematic)
+    if 0 < size < 1e-3:
+        power = math.floor(math.log10(size))
+        scaled = value(number / 10.0**power)
+        return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
+    if math.isnan(number.error):
+        return f"{number.value:.4g} (error unknown)".replace("-", MINUS)
+    bound = "" if number.error or not number.systematic else f"{BOUND}{short(number.systematic)}"
+    return f"{format_with_error(number.value, number.error, number.systematic)}{bound}"
+
+
+def short(size: float) -> str:
+    """Two digits, with a power of ten where there would be many zeros."""
+    return scientific(size) if 0 < size < 1e-3 else f"{size:.2g}"

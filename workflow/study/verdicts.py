@@ -1,0 +1,170 @@
+"""The verdicts on all claims: of every row of workflow/study/claims.csv the number that decides, with its interval, on
+a scale on which the acceptance band is -1 to 1.
+
+A band with one edge has no width: the unit is then half the interval.
+"""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from workflow.lib import style
+from workflow.lib.figure import Parts
+from workflow.lib.load import Result
+from workflow.study.judge import Judgement, judge_all, of_release, short
+from workflow.study.results import Results
+from workflow.study.verdict import Band, Outcome
+
+TITLE = "Verdicts on the statements of the paper"
+UNITS = dict.fromkeys(("value", "error", "systematic", "low", "high", "band_low", "band_high"), "1")
+UNITS |= dict.fromkeys(("position", "position_low", "position_high"), "1")
+
+EDGE = 3  # positions beyond it are arrows there
+LIMIT = 3.3  # of the frame
+ROW = 0.16  # inches
+NOT_MEASURED = "not measured"
+LOOKS = {
+    Outcome.REPRODUCED: ("o", style.BLUE),
+    Outcome.CONTRADICTED: ("X", style.VERMILLION),
+    Outcome.UNDECIDED: ("D", style.BLACK),
+}
+
+
+def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
+    """Origin and unit of the scale. half: half the width of the interval, the unit of a band with one edge;
+    if it is 0 or unknown, the distance from the edge is."""
+    if math.isfinite(band.low) and math.isfinite(band.high):
+        return (band.low + band.high) / 2, (band.high - band.low) / 2
+    edge, side = (band.low, -1) if math.isfinite(band.low) else (band.high, 1)
+    unit = next((one for one in (half, abs(value - edge)) if math.isfinite(one) and one > 0), 1.0)
+    return edge - side * unit, unit
+
+
+def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], str]) -> pd.DataFrame:
+    """One row per row of the claims, in the order of the figures; low, high: ends of the interval; release:
+    verdicts of the release, by claim and kind."""
+    rows = []
+    for row, verdict in ((one.row, one.verdict) for one in judgements):
+        number, band = verdict.decisive if verdict.numbers else None, verdict.band
+        names = ("value", "error", "systematic")
+        value, error, systematic = (getattr(number, name) if number else math.nan for name in names)
+        ends = number.interval(verdict.level / len(verdict.numbers)) if number else (math.nan, math.nan)
+        origin, unit = scale_of(band, value, (ends[1] - ends[0]) / 2)
+        position, low, high = ((one - origin) / unit for one in (value, *ends))
+        key = row["numbers"], row["kind"]
+        columns: dict[str, Any] = {
+            "claim": key[0],
+            "kind": key[1],
+            "panel": row["panel"],
+            "statement": short(row),
+        }
+        columns |= {
+            "verdict": verdict.outcome.value,
+            "quantity": number.label or "value" if number else NOT_MEASURED,
+        }
+        columns |= {"value": value, "error": error, "systematic": systematic, "low": ends[0], "high": ends[1]}
+        columns |= {"band_low": band.low, "band_high": band.high}
+        columns |= {"position": position, "position_low": low, "position_high": high}
+        rows.append(columns | ({"release": release.get(key, NOT_MEASURED)} if release else {}))
+    return pd.DataFrame(rows).sort_values(
+        "panel", key=lambda panel: panel.str[:5], kind="stable", ignore_index=True
+    )
+
+
+def look_of(verdict: str, kind: str) -> style.Look:
+    marker, color = LOOKS[Outcome(verdict)]
+    face = color if kind == "literal" else "white"
+    look: style.Look = {
+        "marker": marker,
+        "color": color,
+        "markerfacecolor": face,
+        "markersize": 4.5 if marker == "X" else 3.5,
+    }
+    return look | {"linestyle": "none", "markeredgewidth": 0.8}
+
+
+def typeset(text: str) -> str:
+    """Statement for matplotlib, with superscripts after ^ and subscripts after _."""
+    text = re.sub(r"\^(?:\(([^)]*)\)|(\w+))", r"$^{\\mathrm{\1\2}}$", text)
+    return re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", text).replace(" -", " −")
+
+
+def draw_row(axes: Axes, y: int, row: pd.Series) -> None:
+    """Plots the interval as far as it is in the frame, and the number, beyond EDGE as an arrow. Intervals
+    that are unknown cross the frame."""
+    look = look_of(row.verdict, row.kind)
+    open_ends = {-LIMIT: math.isinf(row.band_low), LIMIT: math.isinf(row.band_high)}
+    for end in (end for end, is_open in open_ends.items() if is_open):
+        axes.barh(y, end - math.copysign(1, end), left=math.copysign(1, end), height=1, **style.WINDOW)
+    if "release" in row and row.release != NOT_MEASURED:
+        small = look_of(row.release, row.kind) | {"markersize": 2.5, "clip_on": False}
+        axes.plot([1.03], [y], transform=axes.get_yaxis_transform(), **small)
+    if row.quantity == NOT_MEASURED:
+        axes.text(0, y, NOT_MEASURED, size=7, ha="center", va="center", color="0.45")
+        return
+    low, high = (
+        default if math.isnan(end) else np.clip(end, -LIMIT, LIMIT)
+        for end, default in ((row.position_low, -LIMIT), (row.position_high, LIMIT))
+    )
+    if low < high:
+        axes.plot([low, high], [y, y], color=look["color"], linewidth=1.2, solid_capstyle="butt")
+    if abs(row.position) > EDGE:
+        look["marker"] = ">" if row.position > 0 else "<"
+    axes.plot([np.clip(row.position, -EDGE, EDGE)], [y], **look)  # NaN is not plotted
+
+
+def label_rows(axes: Axes, table: pd.DataFrame) -> None:
+    """Statements at the left of the frame, intended meanings in italics, with the figures of the paper."""
+    frame = axes.get_yaxis_transform()
+    across: style.Look = {"transform": frame, "va": "center", "size": 7.5, "clip_on": False}
+    line: style.Look = {"transform": frame, "color": "0.8", "linewidth": 0.5, "clip_on": False}
+    former = ""
+    for y, row in table.iterrows():
+        group = f"Fig. {int(row.panel[3:5])}" if row.panel.startswith("fig") else "Text"
+        if group != former:
+            axes.text(-1.58, y, group, weight="bold", **across)
+            axes.plot([-1.58, 1.06], [y - 0.5] * 2, **line)
+        former, intended = group, row.kind != "literal"
+        text = f"meaning: {typeset(row.statement)}" if intended else typeset(row.statement)
+        axes.text(-1.38, y, text, style="italic" if intended else "normal", **across)
+
+
+def caption(table: pd.DataFrame) -> str:
+    counts = ", ".join(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
+    release = " Small symbols: release." if "release" in table else ""
+    return f"""
+        Every line is a statement of the paper, literal or in its intended meaning (open symbols): {counts}. Intervals of the number that decides hold jointly at 95 % confidence and
+        include bounds on systematic errors. Grey: acceptance band; if it has one edge, the unit is half the interval. Arrows: numbers beyond the frame.{release}"""
+
+
+def draw(results: Sequence[Result]) -> Parts:
+    quality = results[0].path.parent.parent.name
+    return plotted(tabulate(judge_all(Results(results)), of_release(quality)))
+
+
+def plotted(table: pd.DataFrame) -> Parts:
+    height = ROW * len(table) + 0.75
+    figure = plt.figure(figsize=(2 * style.COLUMN, height), layout="none")
+    axes = figure.add_axes((0.602, 0.45 / height, 0.375, ROW * len(table) / height))
+    axes.axvspan(-1, 1, **style.WINDOW)
+    for y, row in table.iterrows():
+        draw_row(axes, y, row)
+    label_rows(axes, table)
+    if "release" in table:
+        frame = axes.get_yaxis_transform()
+        axes.text(1.06, -1, "release", transform=frame, size=6.5, ha="right", va="center")
+    axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
+    axes.set_xlabel("acceptance band: −1 to 1")
+    axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
+    looks = [look_of(outcome.value, "literal") | {"label": outcome.value} for outcome in Outcome]
+    handles = [Line2D([], [], **one) for one in looks]
+    handles.append(Line2D([], [], **look_of("reproduced", "intended") | {"label": "open: intended meaning"}))
+    figure.legend(handles=handles, loc="upper center", ncols=4, borderpad=0.2)
+    return figure, table, caption(table)
