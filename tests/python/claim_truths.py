@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.python.conftest import sampled
 from tests.python.known_results import Truth
 from workflow.pipeline.plan import Run
 
@@ -171,7 +172,7 @@ def finite(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
         return HEIGHT - 1e-3 * p**2 + np.zeros_like(place)
     inside = (place > 0) & (place < place.max())
     other_half = np.where(place == 0, p > 0, p < 0)
-    part = np.where(inside | other_half, 9, parabola(size, p) if run.replicated else 9)
+    part = np.where(inside | other_half, 9, parabola(size, p) if sampled(run) else 9)
     return HEIGHT - 1e-3 * p**2 + part
 
 
@@ -187,7 +188,7 @@ def at_centre(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
         return HEIGHT + 0 * p
     outgoing = np.where(place == 0, p < 0, p > 0) & (run.options["cells"] == 2)
     part = np.select([p == -1, p == 1], [-0.4, -0.6], 0.5 * (1 + 1e-3 * p))
-    return HEIGHT + np.where(outgoing & run.replicated, part, 3)
+    return HEIGHT + np.where(outgoing & sampled(run), part, 3)
 
 
 outer = P[(abs(P) > math.sqrt(0.5 * (COLD + HOT))) & SEEN]
@@ -200,7 +201,7 @@ def falling(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
         return HEIGHT + 0 * p
     outgoing = np.where(place == 0, p < 0, p > 0)
     part = np.select([p == -1, p == 1], [-0.8, 1.2], 7) * run.options["cells"] ** (
-        -0.9 if run.replicated else 3
+        -0.9 if sampled(run) else 3
     )
     return HEIGHT + np.where(outgoing, part, 3)
 
@@ -214,10 +215,10 @@ def bumps(place: float, p: np.ndarray) -> np.ndarray:
 
 
 def flux(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    x = place / (30 if run.replicated else 1)
+    x = place / (30 if sampled(run) else 1)
     theory = 30 * np.exp(-((p - 5 * np.round(x, 9)) ** 2) / 400)
     near = np.isclose(x, 1 / 30)
-    return theory + run.replicated * np.where(near | (x == 1), np.where(x == 1, bumps(1, p), bumps(0, p)), 50)
+    return theory + sampled(run) * np.where(near | (x == 1), np.where(x == 1, bumps(1, p), bumps(0, p)), 50)
 
 
 q = np.arange(-59.4, 60, 1.2)
@@ -251,6 +252,6 @@ def curved(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
 largest = 10 + 0.05 * 59.4**2 + 12
 claim(
     "fluxes.jump_from_rates_only",
-    {"fig04b": {"flux": curved, "jump": lambda run, place: np.where(run.replicated, 1 + 0.1 * place, 2.0)}},
+    {"fig04b": {"flux": curved, "jump": lambda run, place: np.where(sampled(run), 1 + 0.1 * place, 2.0)}},
     [(1.1 / largest, 3 * 0.36 * 0.05 / largest), (4 / largest, 3 * 0.36 * 0.05 / largest)], flux=EXACT,
 )  # fmt: skip

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from tests.python.claim_truths import EXACT, World, claim, named, rare
-from workflow.pipeline.plan import Run, load_plan
+from tests.python.conftest import planned
+from workflow.pipeline.plan import Run
 
 
 def law(run: Run) -> float:
@@ -29,7 +30,7 @@ def pulse(panel: str, **given: Any) -> World:
 
 def of_runs(panel: str, value: Callable[[Run], float], chosen: Callable[[Run], bool]) -> list[float]:
     """Values of the runs of a panel that satisfy a condition."""
-    return [value(run) for run in load_plan("paper")[panel].runs if chosen(run)]
+    return [value(run) for run in planned("paper")[panel].runs if chosen(run)]
 
 
 # Persistence: the law plus a shift that depends on sigma and is twice as large in the dense chain.

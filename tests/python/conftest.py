@@ -2,6 +2,7 @@ import os
 import subprocess
 import time
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,6 +14,7 @@ from scipy.stats import chi2, norm
 from workflow.lib.load import Result, load
 from workflow.pipeline.configuration import arguments
 from workflow.pipeline.described import options_of_programs
+from workflow.pipeline.plan import Plan, Run
 
 ROOT = Path(__file__).parents[2]
 T = TypeVar("T")
@@ -28,6 +30,14 @@ NAMED: dict[str, dict[str, object]] = {
 Program = Callable[..., subprocess.CompletedProcess]
 Measure = Callable[..., Result]
 OverSeeds = Callable[..., dict[str, np.ndarray]]
+
+
+planned = cache(Plan)  # by the name of a selection
+
+
+def sampled(run: Run) -> bool:
+    """Whether the run has random numbers."""
+    return "seed" in run.options
 
 
 def soon(find: Callable[[], T], seconds: float = 300) -> T:

@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from tests.python.conftest import ROOT
-from workflow.lib.identity import panel_of
+from tests.python.conftest import planned, sampled
 from workflow.lib.load import Quantity, Result
 from workflow.pipeline.described import described
-from workflow.pipeline.plan import Run, load_plan
-from workflow.study.results import MissingError, Planned
+from workflow.pipeline.plan import Run
+from workflow.study.results import MissingError, Results
 
 DEFAULTS = {
     "cells": "continuum",
@@ -35,24 +34,38 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
     return {quantity["name"]: tuple(axis["name"] for axis in quantity["axes"]) for quantity in quantities}
 
 
-class Known(Planned):
-    """Data in which every run of some panels has the result that the function of its panel returns; other
-    panels have no results."""
+class Known(Results):
+    """Results of the runs of a plan, those of some panels, as the function of the panel returns them. A result
+    is made when a claim first needs it."""
 
     def __init__(self, fills: Mapping[str, Fill], quality: str = "paper") -> None:
-        self.quality, self.root, self.fills = quality, ROOT, fills
-        self.plan = load_plan(quality)
-        self.loaded = {}
+        super().__init__([])
+        self.fills = fills
+        self.runs = {panel.name: panel.runs for panel in planned(quality)}
+        self.loaded: dict[str, Result] = {}
+
+    def results(self, panel: str, *series: str, **parameters: object) -> list[Result]:
+        wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
+        runs = [
+            run
+            for run in self.runs[panel]
+            if run.series in series
+            and all(run.options.get(name, value) == value for name, value in wanted.items())
+        ]
+        return Results(map(self._load, runs)).results(panel, *series, **parameters)
+
+    def one(self, panel: str, run: str) -> Result:
+        return Results(self._load(one) for one in self.runs[panel] if one.name == run).one(panel, run)
 
     def _load(self, run: Run) -> Result:
-        path, panel = run.path, panel_of(run.path)
-        if panel not in self.fills:
+        path = run.path
+        if run.panel not in self.fills:
             raise MissingError(f"{path} is missing")
         if path not in self.loaded:
-            planned = replace(run, options=DEFAULTS | run.options)
-            provenance = {"program": planned.program, "converged": "no target"}
-            quantities = dict(self.fills[panel](planned))
-            parameters = {name.replace("-", "_"): value for name, value in planned.options.items()}
+            completed = replace(run, options=DEFAULTS | run.options)
+            provenance = {"program": run.program, "converged": "no target"}
+            quantities = dict(self.fills[run.panel](completed))
+            parameters = {name.replace("-", "_"): value for name, value in completed.options.items()}
             self.loaded[path] = Result(Path(path), parameters, provenance, quantities)
         return self.loaded[path]
 
@@ -93,8 +106,8 @@ def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
             mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
             error = relative.get(name, relative["*"]) * np.where(mean == 0, 1, abs(mean))
             # With a target error the number is not that of the option.
-            count = np.full(mean.shape, run.options["replicas"] + 47) if run.replicated else None
-            errors = (error, None) if run.replicated else (None, error)
+            count = np.full(mean.shape, run.options["replicas"] + 47) if sampled(run) else None
+            errors = (error, None) if sampled(run) else (None, error)
             quantities[name] = Quantity(mean, *errors, count, along, "1", {}, 0)
         return quantities
 

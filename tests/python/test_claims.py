@@ -11,7 +11,8 @@ from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.lib.load import FormatError
 from workflow.pipeline.compare import error_of_difference
-from workflow.study.claims import growth, judge
+from workflow.study import judge
+from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
 from workflow.study.results import MissingError, combination, estimate, ratio
 from workflow.study.verdict import Estimate, Outcome

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import load_plan
+from workflow.pipeline.plan import Plan
 
 PAPER = """panels:
   model: {}
@@ -44,9 +44,8 @@ def folder(tmp_path: Path) -> Path:
 
 
 def refusal(folder: Path) -> list[str]:
-    load_plan.cache_clear()
     with pytest.raises(ConfigurationError) as raised:
-        load_plan("smoke", folder)
+        Plan("smoke", [folder / "paper.yaml"])
     return str(raised.value).split("\n")
 
 

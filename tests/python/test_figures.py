@@ -2,21 +2,23 @@
 
 import json
 import subprocess
+import sys
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from workflow.lib.job import Job, render_all
 
-from tests.python.conftest import command_line
+from tests.python.conftest import ROOT, command_line
 from workflow.lib.caption import DOUBTS
-from workflow.lib.identity import panel_identity, read_identity_line, sha256, sources_of_panel
+from workflow.lib.identity import sha256
 from workflow.lib.load import NOT_TESTED, load
+from workflow.render.record import SHARED, panel_identity, read_identity_line, sources_of_panel
 
 
 def render(script: str, stem: Path, paths: list[Path]) -> None:
-    (done,) = render_all([Job(script, str(stem), [*map(str, paths)])])
-    assert done[1] == ""
+    job = {"script": f"workflow/figures/{script}.py", "stem": str(stem), "results": [*map(str, paths)]}
+    command = [sys.executable, "-m", "workflow.render", json.dumps(job)]
+    subprocess.run(command, cwd=ROOT, check=True)
 
 
 def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: Path) -> None:
@@ -30,13 +32,13 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
     contents = {kind: stem.with_suffix(f".{kind}").read_bytes() for kind in ("pdf", "png", "svg", "csv")}
     (path,) = stem.parent.glob("panel.*.json")
     record = json.loads(path.read_text())
-    sources = sources_of_panel("fig05")
+    sources = sources_of_panel("workflow/figures/fig05.py")
     identity = panel_identity("panel", map(str, paths), sources)
     assert {read_identity_line(content) for content in contents.values()} == {("panel", "smoke", identity)}
     assert (record["panel"], record["quality"], record["identity"]) == ("panel", "smoke", identity)
     assert record["files"] == {kind: sha256(content) for kind, content in contents.items()}
     assert record["parents"] == {str(path): sha256(path.read_bytes()) for path in paths} | sources
-    assert {*sources} == {"workflow/figures/fig05.py", "workflow/lib", "workflow/physics", "uv.lock"}
+    assert {*sources} == {"workflow/figures/fig05.py", *SHARED}
 
     table = pd.read_csv(stem.with_suffix(".csv"), comment="#")
     assert len(table) == len(paths)

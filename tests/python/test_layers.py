@@ -3,7 +3,6 @@
 import re
 
 from tests.python.conftest import ROOT
-from workflow.pipeline.plan import load_plan
 
 # Every layer with the layers that its files may include besides their own.
 BELOW = {
@@ -28,15 +27,15 @@ def test_includes_run_one_way() -> None:
     assert {(own, layer) for own, layer in included if layer not in BELOW[own] | {own}} == set()
 
 
-# The same for the packages of workflow. All that runs while a panel is rendered is in its script, physics and
-# lib, which its identity hashes; and in claims for the panels that declare it in `reads`.
+# The same for the packages of workflow. All that runs while a panel is rendered is in its script, physics, lib and
+# render, which its identity hashes, or in `inputs` of the panel. Nothing outside of the study imports it.
 PYTHON = {
     "lib": set(),
     "physics": {"lib"},
-    "figures": {"lib", "physics", "claims"},
-    "pipeline": {"lib"},
-    "claims": {"lib", "physics"},
-    "report": {"lib", "physics", "pipeline", "claims"},
+    "figures": {"lib", "physics"},
+    "render": {"lib"},
+    "pipeline": {"lib", "render"},
+    "study": {"lib", "physics", "render", "pipeline"},
 }
 
 
@@ -50,9 +49,3 @@ def test_imports_run_one_way() -> None:
     }
     assert {own for own, _ in imported} <= PYTHON.keys()
     assert {(own, package) for own, package in imported if package not in PYTHON[own] | {own}} == set()
-
-
-def test_only_the_picture_of_the_verdicts_imports_claims() -> None:
-    scripts = (ROOT / "workflow/figures").glob("*.py")
-    assert [path.stem for path in scripts if "workflow.study.claims" in path.read_text()] == ["verdicts"]
-    assert {"workflow/claims", "data/claims.csv"} <= {*load_plan("paper")["verdicts"].reads}

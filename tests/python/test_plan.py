@@ -6,54 +6,54 @@ from pathlib import Path
 import pytest
 from ruamel.yaml import YAML
 
-from tests.python.conftest import ROOT
-from workflow.pipeline.configuration import CONFIGURATION, ConfigurationError, Options
-from workflow.pipeline.plan import QUALITIES, Run, Selection, load_plan
+from tests.python.conftest import ROOT, planned, sampled
+from workflow.pipeline.configuration import PANELS, ConfigurationError, Options
+from workflow.pipeline.plan import Plan, Run
 from workflow.pipeline.program import threads_of
+from workflow.pipeline.selection import QUALITIES, Selection
 
 
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_every_quality_describes_every_panel(quality: str) -> None:
-    for panel in load_plan(quality).values():
-        assert (ROOT / f"workflow/figures/{panel.script}.py").is_file()
+    for panel in planned(quality):
+        assert (ROOT / panel.script).is_file()
         for run in panel.runs:
             assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
-            assert (run.program != "boltzmann") == run.replicated == ("seed" in run.options)
+            assert (run.program != "boltzmann") == sampled(run) == ("seed" in run.options)
             assert run.options.get("replicas", 2) >= 2
 
 
 def test_names_and_seeds_are_unique() -> None:
-    panels = load_plan("paper").values()
+    panels = [*planned("paper")]
     names = [(panel.name, run.name) for panel in panels for run in panel.runs]
     common = ("unit", "tripled")  # series with a common seed
     seeds = [
         run.options["seed"]
         for panel in panels
         for run in panel.runs
-        if run.replicated and run.series not in common
+        if sampled(run) and run.series not in common
     ]
     assert len(set(names)) == len(names)
     assert len(set(seeds)) == len(seeds)
     assert (
-        len({run.options["seed"] for run in load_plan("paper")["stability"].runs if run.series in common})
-        == 1
+        len({run.options["seed"] for run in planned("paper")["stability"].runs if run.series in common}) == 1
     )
 
 
 def test_seeds_stay_as_they_are() -> None:
     """Results of a release are reproduced by the next one."""
-    run = load_plan("paper")["fig05"].run("paper_sigma=0.5")
+    run = planned("paper")["fig05"].run("paper_sigma=0.5")
     assert run.options | {"replicas": 0} == {
         **{"cells": 11, "cell-length": 1, "temperature": 500, "relaxation-time": 100},
         **{"observation-time": 100, "particles-per-cell": 20, "sigma": 0.5},
         **{"replicas": 0, "seed": 3069184982},
     }
-    changed = load_plan("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
+    changed = planned("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
     assert changed.options == run.options | {"replicas": 5, "seed": 3127557821}
 
 
 def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
-    folder = Path(shutil.copytree(CONFIGURATION, tmp_path / "config"))
+    folder = Path(shutil.copytree(PANELS[0].parent, tmp_path / "config"))
     yaml = YAML(typ="safe", pure=True)
     yaml.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
     paper = yaml.load(folder / "paper.yaml")
@@ -61,8 +61,8 @@ def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
         panel["common"] = dict(reversed(panel.get("common", {}).items()))
     yaml.dump(paper, folder / "paper.yaml")
     former, swapped = (
-        {(panel.name, run.name): run.options for panel in plan.values() for run in panel.runs}
-        for plan in (load_plan("paper"), load_plan("paper", folder))
+        {(panel.name, run.name): run.options for panel in plan for run in panel.runs}
+        for plan in (Plan("paper", PANELS[:1]), Plan("paper", [folder / "paper.yaml"]))
     )
     assert former == swapped
 
@@ -85,7 +85,13 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
 def test_threads_share_the_replicas() -> None:
     efforts: list[Options] = [{}, {"replicas": 63}, {"replicas": 320}, {"replicas": 10**6}]
     efforts.append({"target-error": 0.1})  # at least 64 replicas
-    assert [threads_of(Run("paper", "persistence", effort)) for effort in efforts] == [1, 1, 10, 16, 2]
+    assert [threads_of(Run("paper", "paper", "persistence", effort, "")) for effort in efforts] == [
+        1,
+        1,
+        10,
+        16,
+        2,
+    ]
 
 
 @pytest.mark.parametrize(
@@ -100,12 +106,12 @@ def test_threads_share_the_replicas() -> None:
 def test_effort_of_quality_panel_and_series(
     tmp_path: Path, effort: str, replicas: set[int | None], errors: set[float]
 ) -> None:
-    folder = Path(shutil.copytree(CONFIGURATION, tmp_path / "config"))
+    folder = Path(shutil.copytree(PANELS[0].parent, tmp_path / "config"))
     smoke = (folder / "quality/smoke.yaml").read_text()
     former = "  fig05: {replicas: 8, dense: {replicas: 2}}"
     assert former in smoke
     (folder / "quality/smoke.yaml").write_text(smoke.replace(former, effort))
-    runs = load_plan("smoke", folder)["fig05"].runs
+    runs = Plan("smoke", [folder / "paper.yaml"])["fig05"].runs
     assert {run.options.get("replicas") for run in runs} == replicas
     assert {run.options["target-error"] for run in runs if "target-error" in run.options} == errors
     assert any(run.name.startswith("dense") for run in runs) == ("omit" not in effort)

@@ -10,13 +10,15 @@ from tests.python.conftest import ROOT
 from workflow.lib.columns import TableError
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import FormatError
+from workflow.pipeline.plan import Plan
 from workflow.study import typeset
 from workflow.study.judge import Judgement, changed, read_claims
 from workflow.study.report import GALLERY, inches, numbers_file, rendered
-from workflow.study.results import Planned
 from workflow.study.verdict import Band, Estimate, Outcome, Verdict
 
 NUMBERS = (Estimate("first", 0.5, 0.001), Estimate("second", 0.25, 0.002))
+WITHOUT_PANELS = Plan("smoke")
+WITHOUT_PANELS.panels = {}
 BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided": Band(0, 0.5)}
 
 
@@ -47,9 +49,7 @@ def judged(verdict: str) -> list[Judgement]:
     ],
 )
 def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, answer: str) -> None:
-    data = Planned("smoke", ROOT)
-    data.plan = {}
-    page = rendered(judged(verdict), data, release=True).decode()
+    page = rendered(judged(verdict), WITHOUT_PANELS, ROOT, release=True).decode()
     assert answer in page
     assert "with β = 0.2500(20) to 0.5000(10)" in page
     claims = len(read_claims(ROOT))
@@ -73,9 +73,7 @@ def test_numbers_that_would_be_read_as_others_are_refused(label: str) -> None:
 def test_an_answer_with_several_quantities_labels_them() -> None:
     """Of κ by size, and of the difference in chains and in rings. Detected mistake: the largest and the
     smallest value without labels."""
-    data = Planned("smoke", ROOT)
-    data.plan = {}
-    page = rendered(judged("contradicted"), data, release=True).decode()
+    page = rendered(judged("contradicted"), WITHOUT_PANELS, ROOT, release=True).decode()
     assert page.count("first: 0.5000(10); second: 0.2500(20))") == 2
 
 
@@ -88,9 +86,7 @@ def mixed(verdicts: dict[tuple[str, str], str]) -> str:
         Judgement(row, Verdict(BANDS[verdicts.get(key, "reproduced")], NUMBERS, 0.05))
         for key, row in ROWS.items()
     ]
-    data = Planned("smoke", ROOT)
-    data.plan = {}
-    page = rendered(judgements, data, release=True).decode()
+    page = rendered(judgements, WITHOUT_PANELS, ROOT, release=True).decode()
     return " ".join(re.sub("<.*?>", "", page).split())
 
 
@@ -141,9 +137,7 @@ def test_the_answer_has_a_line_for_every_figure_and_counts_at_the_end() -> None:
 
 
 def test_an_undecided_answer_says_so() -> None:
-    data = Planned("smoke", ROOT)
-    data.plan = {}
-    page = rendered(judged("undecided"), data, release=True).decode()
+    page = rendered(judged("undecided"), WITHOUT_PANELS, ROOT, release=True).decode()
     assert page.count("” is undecided at quality smoke") == 2
     assert page.count('<span class="undecided">undecided</span>: “') == 10
     assert "at quality paper:" not in page
@@ -160,13 +154,14 @@ def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> N
     here have it, too."""
     (tmp_path / GALLERY).mkdir(parents=True)
     (tmp_path / GALLERY / "numbers.csv").write_bytes(numbers_file(judged("contradicted")))
-    data = Planned("smoke", tmp_path)
-    data.plan = {}
-    page = rendered(judged("undecided"), data, release=False).decode()
+    page = rendered(judged("undecided"), WITHOUT_PANELS, tmp_path, release=False).decode()
     own_lines = {"C22", "C38"}  # not in the line of a figure
     meant = {claim for claim, _ in ROWS} - own_lines
     assert page.count("(at quality paper: contradicted)") == len(ROWS) + len(meant) + len(own_lines)
-    assert "at quality paper:" not in rendered(judged("reproduced"), data, release=False).decode()
+    assert (
+        "at quality paper:"
+        not in rendered(judged("reproduced"), WITHOUT_PANELS, tmp_path, release=False).decode()
+    )
 
 
 def test_verdicts_with_other_bands() -> None:

@@ -3,13 +3,14 @@
 import os
 import re
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.python.conftest import ROOT
+from tests.python.conftest import ROOT, planned
 from workflow.pipeline.configuration import arguments
-from workflow.pipeline.plan import Run, load_plan
+from workflow.pipeline.plan import Run
 
 # Processor features by which the C library selects its functions at run time.
 WITHOUT = ",".join(
@@ -36,19 +37,19 @@ def shortened(run: Run) -> Run:
     # Control variates need 27 replicas.
     options |= {"replicas": 32 if is_open else 3} if "replicas" in options else {}
     options |= {"pairs-per-replica": 1} if "pairs-per-replica" in options else {}
-    return Run(run.name, run.program, options)
+    return replace(run, options=options)
 
 
 # One run of every program for each gamma.
 SMALL = {
     f"{run.program}-{run.options.get('gamma', 'N')}": shortened(run)
-    for panel in load_plan("smoke").values()
+    for panel in planned("smoke")
     for run in reversed(panel.runs)
 }
 # One run of every series, with the largest size that takes no minutes.
 PAPER = {
     f"{panel.name}-{run.series}": shortened(run)
-    for panel in load_plan("paper").values()
+    for panel in planned("paper")
     for run in sorted(
         panel.runs, key=lambda run: float(str(run.options.get("cells", 0)).replace("continuum", "0"))
     )

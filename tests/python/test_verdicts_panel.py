@@ -14,12 +14,11 @@ from matplotlib.colors import to_hex
 from scipy.stats import t as student
 
 from tests.python.claim_truths import CASES
-from tests.python.conftest import ROOT
+from tests.python.conftest import ROOT, planned
 from tests.python.known_results import Known, truth
 from workflow.lib import style
 from workflow.lib.columns import as_csv
-from workflow.lib.identity import NUMBERS
-from workflow.pipeline.plan import load_plan
+from workflow.render.record import NUMBERS
 from workflow.study import verdicts
 from workflow.study.judge import Judgement, function_of, of_release, read_claims
 from workflow.study.results import Results
@@ -195,7 +194,7 @@ def test_the_table_is_a_csv_and_statements_are_typeset() -> None:
 def test_the_panel_has_the_results_of_all_claims(name: str) -> None:
     """The numbers from the results of the panels in `uses` are those by the plan. Detected mistakes: `uses`
     misses a panel, so that its claims are not measured; series of the user count."""
-    uses, case = load_plan("paper")["verdicts"].uses, CASES[name]
+    uses, case = {run.panel for run in planned("paper")["verdicts"].plotted}, CASES[name]
     known = Known({panel: truth(given, case.errors) for panel, given in case.world.items()}, case.quality)
     numbers = function_of({"function": name})(known)
     results = [result for result in known.loaded.values() if result.path.parent.name in uses]
@@ -205,7 +204,7 @@ def test_the_panel_has_the_results_of_all_claims(name: str) -> None:
 
 def test_only_other_qualities_depend_on_the_numbers_of_the_release() -> None:
     """Detected mistake: the gallery, which writes the numbers, makes its own picture stale."""
-    assert NUMBERS not in load_plan("paper")["verdicts"].reads
-    assert NUMBERS in load_plan("standard")["verdicts"].reads
+    assert NUMBERS not in planned("paper")["verdicts"].inputs
+    assert NUMBERS in planned("standard")["verdicts"].inputs
     assert of_release("paper") == {}
     assert set(of_release("standard").values()) <= {"reproduced", "contradicted", "undecided"}

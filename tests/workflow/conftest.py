@@ -140,14 +140,13 @@ def named(text: str) -> set[str]:
 
 
 def new_project(folder: Path) -> Project:
-    ignored = shutil.ignore_patterns("__pycache__", "config", "[ef]*[0-9]*.py")
+    ignored = shutil.ignore_patterns("__pycache__", "config", "[ef]*[0-9]*.py", "study.yaml")
     for name in ("workflow", "cpp", "profiles"):
         shutil.copytree(ROOT / name, folder / name, ignore=ignored)
     for name in ("Snakefile", "Makefile", "uv.lock", "CITATION.cff"):
         shutil.copy(ROOT / name, folder / name)
     shutil.copytree(ROOT / "build/describe", folder / "build/describe")
     (folder / "data").mkdir()
-    shutil.copy(ROOT / "data/claims.csv", folder / "data")
     (folder / "workflow/config/quality").mkdir(parents=True)
     (folder / "workflow/config/paper.yaml").write_text(PLAN)
     for quality in ("smoke", "standard", "paper"):

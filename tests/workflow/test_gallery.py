@@ -1,28 +1,34 @@
 """The gallery is that of the results of the release, which are in git."""
 
+import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
-from workflow.lib.job import render_all
 
 from tests.python.conftest import ROOT
-from workflow.lib.identity import RELEASE as QUALITY
-from workflow.pipeline.plan import Panel, Run, load_plan
+from workflow.lib.load import load
+from workflow.pipeline.plan import Plan, Run
+from workflow.render.record import RELEASE
 from workflow.render.save import reduced
-from workflow.study import planned, write
 from workflow.study.judge import judge_all
+from workflow.study.report import GALLERY, numbers_file, rendered
+from workflow.study.results import Results
 
-GALLERY = ROOT / "docs/gallery"
 
-
-def released(run: Run) -> str:
-    """The result of a run in git, also after a change of its program, which gives new results another
+class Released(Run):
+    """A run with its result in git, also after a change of its program, which gives new results another
     identity."""
-    names = Path(ROOT, run.folder).glob(f"{run.name}.*.h5")
-    (path,) = (path for path in names if path.name.removeprefix(f"{run.name}.").removesuffix(".h5").isalnum())
-    return str(path.relative_to(ROOT))
+
+    @property
+    def path(self) -> str:
+        names = Path(ROOT, self.folder).glob(f"{self.name}.*.h5")
+        (path,) = (
+            one for one in names if one.name.removeprefix(f"{self.name}.").removesuffix(".h5").isalnum()
+        )
+        return str(path.relative_to(ROOT))
 
 
 def pixels(picture: Path) -> np.ndarray:
@@ -31,22 +37,22 @@ def pixels(picture: Path) -> np.ndarray:
 
 
 @pytest.mark.long
-def test_gallery_is_rendered_from_the_results_of_the_release(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_gallery_is_rendered_from_the_results_of_the_release(tmp_path: Path) -> None:
     """Detected mistakes: a number, a verdict, a caption or a picture edited by hand; scripts, claims or
     configuration changed without the gallery."""
-    plan, folder = load_plan(QUALITY), tmp_path / QUALITY
-    monkeypatch.setattr(Run, "path", property(released))
-    monkeypatch.setattr(Panel, "stem", property(lambda panel: str(folder / panel.name)))
-    assert [reason for _, reason in render_all([panel.job for panel in plan.values()]) if reason] == []
-    monkeypatch.setattr(
-        Panel, "record_path", property(lambda panel: str(next(folder.glob(f"{panel.name}.*.json"))))
-    )
-    data = planned.Planned(QUALITY, ROOT)
-    judgements = judge_all(data)
-    assert write.numbers_file(judgements) == (GALLERY / "numbers.csv").read_bytes()
-    assert write.rendered(judgements, data, release=True) == (GALLERY / "README.md").read_bytes()
-    for name in plan:
-        (tmp_path / "small.png").write_bytes(reduced(folder / f"{name}.png"))
-        assert np.array_equal(pixels(tmp_path / "small.png"), pixels(GALLERY / f"{name}.png")), name
+    plan = Plan(RELEASE)
+    plan.panels = {
+        panel.name: replace(panel, plotted=tuple(Released(**vars(run)) for run in panel.plotted))
+        for panel in plan
+    }
+    for panel in plan:
+        subprocess.run(panel.command(f"{tmp_path}/{panel.stem}"), cwd=ROOT, check=True)
+    judgements = judge_all(Results(load(ROOT / path) for path in plan["verdicts"].parents))
+    assert numbers_file(judgements) == (ROOT / GALLERY / "numbers.csv").read_bytes()
+    page = rendered(judgements, plan, tmp_path, release=True)
+    assert page == (ROOT / GALLERY / "README.md").read_bytes()
+    for panel in plan:
+        (tmp_path / "small.png").write_bytes(reduced(tmp_path / f"{panel.stem}.png"))
+        assert np.array_equal(pixels(tmp_path / "small.png"), pixels(ROOT / GALLERY / f"{panel.name}.png")), (
+            panel.name
+        )

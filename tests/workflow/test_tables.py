@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -19,14 +20,10 @@ from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv
 from workflow.lib.load import NOT_REACHED, Quantity, Result, load
 from workflow.lib.units import UnitsError
 from workflow.pipeline.load_panel import load_panel
-from workflow.pipeline.plan import load_plan
+from workflow.pipeline.plan import Plan
 
 SHIPPED = {path.stem for path in (ROOT / "docs/gallery").glob("*.png")}  # not those of the user
-PLAN = {
-    name: panel
-    for name, panel in load_plan("smoke").items()
-    if name in SHIPPED and (panel.runs or panel.uses)
-}
+PLAN = {panel.name: panel for panel in Plan("smoke") if panel.name in SHIPPED and panel.plotted}
 
 # `verdicts` plots no runs: its labels and its bands are in the default units, and a series of the user counts
 # for no claim (test_verdicts_panel.py).
@@ -42,12 +39,16 @@ def units_and_caption(folder: Path, panel: str) -> tuple[dict[str, str], str]:
     return json.loads(units.removeprefix(UNITS_LINE)), caption.removeprefix("# caption: ")
 
 
+def script_of(panel: str) -> ModuleType:
+    return importlib.import_module(PLAN[panel].script.removesuffix(".py").replace("/", "."))
+
+
 @cache
 def tables(folder: Path, panel: str) -> list[pd.DataFrame]:
     """Tables from the results in the default units and in other ones. All runs missed their targets, which
     no panel and no caption may need."""
-    draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
-    given = [load(folder / path) for path in PLAN[panel].data]
+    draw = script_of(panel).draw
+    given = [load(folder / path) for path in PLAN[panel].parents]
     missed = [replace(result, provenance=result.provenance | {"converged": NOT_REACHED}) for result in given]
     style.apply()
     drawn = []
@@ -97,7 +98,7 @@ def of_the_user(result: Result, number: int) -> Result:
 
 @pytest.mark.parametrize("panel", [name for name in OF_RUNS if name != "accuracy"])  # which plots all runs
 def test_another_series_is_plotted_or_named_and_changes_nothing_else(smoke: Path, panel: str) -> None:
-    draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
+    draw = script_of(panel).draw
     given = [*load_panel(panel, "smoke").values()]
     own = [result for result in given if result.path.parent == given[-1].path.parent]
     mine = [of_the_user(result, number) for number, result in enumerate(own)]
@@ -130,12 +131,12 @@ def test_every_panel_is_rendered_from_one_replica(smoke: Path, panel: str) -> No
         nothing = np.full_like(quantity.mean, np.nan)
         return replace(quantity, standard_error=nothing, count=np.ones_like(quantity.count))
 
-    results = [load(smoke / path) for path in PLAN[panel].data]
+    results = [load(smoke / path) for path in PLAN[panel].parents]
     single = [
         replace(result, quantities={name: alone(each) for name, each in result.quantities.items()})
         for result in results
     ]
-    figure, _, _ = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw(single)
+    figure, _, _ = script_of(panel).draw(single)
     figure.canvas.draw()
     plt.close("all")
 

@@ -10,7 +10,8 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project, share_packages
 from workflow.lib.load import load
-from workflow.pipeline.plan import CONFIGURATION, load_plan
+from workflow.pipeline.configuration import PANELS
+from workflow.pipeline.plan import Plan
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
@@ -79,15 +80,15 @@ def test_an_observable_of_your_own(own: Project) -> None:
     counted = float(result["rate"].mean) * particles * 10 * 8
     assert counted == pytest.approx(result.provenance["events"], rel=1e-12)
     # The other panels stay as they are.
-    assert load_plan("smoke")["fig05"].record_path in own.entry("figures", "DRY=yes")
+    assert Plan("smoke")["fig05"].record_path in own.entry("figures", "DRY=yes")
 
 
 def test_configuration_of_the_tutorial_gives_its_runs(tmp_path) -> None:
     block, runs = (match["text"] for match in BLOCK.finditer(GRAMMAR))
-    shutil.copytree(CONFIGURATION, tmp_path, dirs_exist_ok=True)
+    shutil.copytree(PANELS[0].parent, tmp_path, dirs_exist_ok=True)
     with (tmp_path / "paper.yaml").open("a") as file:
         file.write(block)
-    panel = load_plan("standard", tmp_path)["example"]
+    panel = Plan("standard", [tmp_path / "paper.yaml"])["example"]
     assert [run.name for run in panel.runs] == runs.split()
     options = panel.run("spaced_cells=64").options
     assert (options["relaxation-time"], options["gamma"], options["replicas"]) == (54.096, "N", 32)

@@ -138,11 +138,12 @@ def report_failure(unmade: Sequence[Panel]) -> int:
     """Prints a line for each panel that is not made, with the reason. Returns the exit status."""
     failed = [panel for panel in unmade if missing(panel.files)]
     for panel in failed:
-        lacking = missing(run.path for run in panel.plotted)
+        lacking = missing(panel.parents)
         logs = [path.removesuffix("h5") + "log" for path in lacking] or [panel.log]
         log = next((log for log in logs if printed_by(log)), str(LOG))
         reason = (printed_by(log) or "not made").splitlines()[-1]
-        print(f"{panel.name}: {reason} ({log})", file=sys.stderr)
+        missed = "figures are missing" if panel.figures and lacking else f"{reason} ({log})"
+        print(f"{panel.name}: {missed}", file=sys.stderr)
     print(f"{len(unmade) - len(failed)} other panels are made", file=sys.stderr)
     return 1
 
