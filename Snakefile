@@ -71,7 +71,7 @@ def command(wildcards, threads):
 
 rule figures:
     input:
-        [ancient(path) for panel in PLAN.paper for path in FILES[panel.name]],
+        [ancient(path) for panel in PLAN.paper for path in [*panel.parents, *FILES[panel.name]]],
     localrule: True
 
 

@@ -55,10 +55,10 @@ def over(runs: Sequence[Result], name: str) -> np.ndarray:
     return np.transpose([both(run[name]) for run in runs])
 
 
-def draw(script: str, results: Sequence[Result]) -> tuple[list[Axes], pd.DataFrame, str]:
+def draw(script: str, results: Sequence[Result], folder: str = "figures") -> tuple[list[Axes], pd.DataFrame, str]:
     """Axes, table and caption of a panel."""
     plt.close("all")
-    figure, table, caption = importlib.import_module(f"workflow.figures.{script}").draw([*results])
+    figure, table, caption = importlib.import_module(f"workflow.{folder}.{script}").draw([*results])
     return figure.axes, table.reset_index(drop=True), " ".join(caption.split())
 
 

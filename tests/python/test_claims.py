@@ -40,9 +40,9 @@ def test_every_statement_has_a_row() -> None:
 )
 def test_a_damaged_table_is_reported_in_one_line(tmp_path: Path, damage: Callable[[str], str]) -> None:
     path = tmp_path / judge.CLAIMS_FILE
-    path.parent.mkdir()
+    path.parent.mkdir(parents=True)
     path.write_text(damage((ROOT / judge.CLAIMS_FILE).read_text()))
-    with pytest.raises(FormatError, match=r"data/claims\.csv: "):
+    with pytest.raises(FormatError, match=r"study/claims\.csv: "):
         judge.read_claims(tmp_path)
 
 

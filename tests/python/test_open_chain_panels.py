@@ -163,7 +163,7 @@ def test_momentum() -> None:
                         "conductivity", kappa=7 * n**a, stationary=1.0, drift_p_value=0.5) for n in sizes]  # fmt: skip
     runs.append(result("dense-longest", RING | ring | {"rule": "elastic", "fugacity": 2.0}, "heat_current",
                        heat_variance=(time**1.25, {"time": time}), local_exponent=([1.25, 1.25], {"middle": np.sqrt([8, 32])})))  # fmt: skip
-    (chains, rings), table, caption = draw("momentum", runs)
+    (chains, rings), table, caption = draw("momentum", runs, "study")
     powers = [a for a, _ in cases.values()]
     bars = [0, *[0.01 * 2**0.5] * 2]
     growths = [(np.array(sizes) / 16) ** a for a in powers]

@@ -84,7 +84,7 @@ def compare(plan: Plan, names: Sequence[str]) -> int:
             elif difference := least_probable(one, other):
                 found.append((difference, path))
             else:
-                left_out.append(f"{path}: errors from fewer than {FEW} replicas, or none")
+                left_out.append(f"{path}: too few replicas to compare")
     if left_out:
         print(f"Not compared: {left_out[0]}" + (f"; {len(left_out) - 1} more" if left_out[1:] else ""))
     if alike:

@@ -6,12 +6,12 @@ from workflow.pipeline.plan import Plan
 from workflow.pipeline.selection import DEFAULT_QUALITY
 
 
-def load_panel(panel: str, selection: str = DEFAULT_QUALITY) -> dict[str, Result]:
+def load_panel(panel: str, quality: str = DEFAULT_QUALITY) -> dict[str, Result]:
     """The results that a panel plots, in the order in which draw() of its script gets them: those of
-    panels in `uses` by PANEL/RUN, then its own by the names of the runs. selection: a quality, or with an
-    effort as `smoke_seed=7`. They are those of the present configuration and sources. Raises FormatError,
+    panels in `uses` by PANEL/RUN, then its own by the names of the runs. quality: also with an effort, as
+    `smoke_seed=7`. They are those of the present configuration and sources. Raises FormatError,
     ConfigurationError, OSError."""
-    plan = Plan(selection)
+    plan = Plan(quality)
     own = plan[panel]
     try:
         return {

@@ -61,7 +61,8 @@ def make(target: str, selection: str, names: list[str], options: argparse.Namesp
             require_built(program)
         unmade = [panel for panel in products if missing(panel.files)]
         with progress(unmade, results):
-            status = snakemake(names or [target], selection, options)
+            targets = [*results, *files, *[target] * (target == "gallery")]
+            status = snakemake(targets, selection, options)
         if variables.stopped:
             print("Stopped; the same command resumes", file=sys.stderr)
             return 128 + variables.stopped[0]

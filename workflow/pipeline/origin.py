@@ -99,7 +99,7 @@ def explain_figure(path: Path) -> int:
     own = ("workflow/figures/", "workflow/study/", "figures/", *SHARED)
     for parent in (parent for parent in record["parents"] if not parent.startswith(own)):
         if not parent.startswith("data/") or not named_identity(parent):
-            print(f"reads {parent}")
+            print(f"uses {parent}")
             continue
         try:
             print_command(load_provenance(parent), f"{parent}: ")

@@ -175,7 +175,7 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
 def write(selection: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     """Writes the report, or the gallery. Raises ConfigurationError, FormatError, OSError."""
     plan = Plan(selection)
-    results = Results(load(root / path) for path in plan["verdicts"].parents)
+    results = Results(load(root / path) for path in runs_of(plan))
     judgements = judge_all(results, root)
     if not gallery:
         report, name = plan.report, plan.selection.name
