@@ -152,8 +152,6 @@ def main() -> int:
     except OSError as error:
         print(format_os_error(error), file=sys.stderr)
         return 1
-    except KeyboardInterrupt:  # of a target that stops a program first
-        return 128 + signal.SIGINT
 
 
 if __name__ == "__main__":

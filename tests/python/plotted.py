@@ -55,7 +55,9 @@ def over(runs: Sequence[Result], name: str) -> np.ndarray:
     return np.transpose([both(run[name]) for run in runs])
 
 
-def draw(script: str, results: Sequence[Result], folder: str = "figures") -> tuple[list[Axes], pd.DataFrame, str]:
+def draw(
+    script: str, results: Sequence[Result], folder: str = "figures"
+) -> tuple[list[Axes], pd.DataFrame, str]:
     """Axes, table and caption of a panel."""
     plt.close("all")
     figure, table, caption = importlib.import_module(f"workflow.{folder}.{script}").draw([*results])

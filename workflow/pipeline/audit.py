@@ -27,7 +27,7 @@ from workflow.pipeline.sources import sources_changed
 from workflow.render.files import format_os_error
 from workflow.render.record import read_record
 
-SHORT = ("accuracy",)  # panels with runs that are too short on purpose
+TOO_SHORT = ("accuracy",)  # panels with runs that are too short on purpose
 WRITABLE = os.access(ROOT, os.W_OK)
 
 
@@ -178,9 +178,9 @@ def print_doubts(doubts: Mapping[str, list[str]]) -> None:
     alike = defaultdict(list)
     for path, reasons in doubts.items():
         alike[panel_of(path), "; ".join(reasons)].append(run_of(path))
-    for (panel, reason), runs in sorted(alike.items(), key=lambda item: item[0][0] in SHORT):
-        short = " (too short on purpose)" * (panel in SHORT)
-        print(f"doubtful: {panel}{short}: {reason}: {', '.join(runs)}")
+    for (panel, reason), runs in sorted(alike.items(), key=lambda item: item[0][0] in TOO_SHORT):
+        purpose = " (too short on purpose)" * (panel in TOO_SHORT)
+        print(f"doubtful: {panel}{purpose}: {reason}: {', '.join(runs)}")
 
 
 def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:

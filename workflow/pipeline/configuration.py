@@ -82,7 +82,7 @@ def read(path: Path) -> Document:
     """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys and rounding errors."""
     try:
         text = path.read_text("utf-8")
-        require_short(text, f"{_shown(path)}:")
+        refuse_rounding_errors(text, f"{_shown(path)}:")
         root = SAFE.compose(text)
         # This also merges the mappings of the node.
         content = SAFE.constructor.construct_document(root) if root else None
@@ -97,7 +97,7 @@ def read(path: Path) -> Document:
         raise ConfigurationError(f"{_shown(path)}: {' '.join(str(error).split())}") from error
 
 
-def require_short(text: str, where: str = "") -> None:
+def refuse_rounding_errors(text: str, where: str = "") -> None:
     """Raises ConfigurationError for a number that differs from one of 12 digits by a rounding error, as
     0.30000000000000004 from a loop: it would name another run, with another seed. where: before the line."""
     for line, content in enumerate(text.splitlines(), 1):
@@ -132,7 +132,8 @@ def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document,
     panels, efforts = read(file), read(file.parent / f"quality/{quality}.yaml")
     panels.check(_panels(programs))
     panels.check(_physics(panels.content, programs))
-    efforts.check(_efforts(panels.content, programs, required=["default"] if file == first else ["panels"]))
+    required = ["default"] if file == first else ["panels"]
+    efforts.check(_efforts(panels, programs, required))
     return panels, efforts
 
 
@@ -197,24 +198,24 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     return {"properties": {"panels": {"properties": panels}}}
 
 
-def _efforts(paper: dict[str, Any], programs: dict[str, Schema], required: list[str]) -> Schema:
+def _efforts(panels: Document, programs: dict[str, Schema], required: list[str]) -> Schema:
     """Schema of quality/*.yaml: the default effort of all sampled runs, that of all sampled series of a panel,
     and that of single series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT_OPTIONS}
-    elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
+    elsewhere = dict.fromkeys(physics, f"is the same at all qualities: give it in {panels.name}")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
     every: Schema = dict.fromkeys(EFFORT_OPTIONS, True)
     for one in series.values():
         every |= one["properties"]
-    panels = {}
-    for name, panel in paper["panels"].items():
+    listed = {}
+    for name, panel in panels.content["panels"].items():
         of_series = {key: series[program] for key, program in programs_of(panel).items()}
-        missing = {"unknown": f"is not in paper.yaml as a series of {name}: remove it here"}
+        missing = {"unknown": f"is not a series of {name} in {panels.name}: remove it here"}
         omit = {"type": "array", "items": {"enum": [*of_series], **missing}, "uniqueItems": True}
-        panels[name] = _object({**every, "omit": omit, **of_series}) | missing
+        listed[name] = _object({**every, "omit": omit, **of_series}) | missing
     default = _object({name: every[name] for name in ("replicas", ERROR)})
-    listed = _object(panels) | {"unknown": "is not in paper.yaml as a panel: remove it here"}
-    return _object({"default": default, "panels": listed}) | {"required": required}
+    known = _object(listed) | {"unknown": f"is not a panel in {panels.name}: remove it here"}
+    return _object({"default": default, "panels": known}) | {"required": required}
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:

@@ -9,7 +9,7 @@ from pathlib import Path
 from threading import Event, Thread
 
 from workflow.lib.identity import panel_of
-from workflow.pipeline.audit import SHORT
+from workflow.pipeline.audit import TOO_SHORT
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment import variables
 from workflow.pipeline.lock import lock_products
@@ -70,7 +70,7 @@ def make(target: str, selection: str, names: list[str], options: argparse.Namesp
             return report_failure(unmade)
     shown = {"selection": selection, "arguments": plan.selection.arguments, "panel": " ".join(names)}
     print(DONE[target].format_map(shown))
-    if found := [path for path in doubtful(panels) if panel_of(path) not in SHORT]:
+    if found := [path for path in doubtful(panels) if panel_of(path) not in TOO_SHORT]:
         number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
         print(f"{number} doubts: make status {plan.selection.arguments}")
     if target in ("figures", "panel") and (options.seed or options.replicas):

@@ -150,7 +150,11 @@ class Plan:
     def __init__(self, selection: str = DEFAULT_QUALITY, files: Sequence[Path] = PANELS) -> None:
         """selection: a name as Selection parses it; files: YAML files with panels, the paper's first."""
         self.selection = Selection.parse(selection)
-        read = [load_configuration(self.selection.quality, file, files[0]) for file in files if file.exists() or file == files[0]]
+        read = [
+            load_configuration(self.selection.quality, file, files[0])
+            for file in files
+            if file.exists() or file == files[0]
+        ]
         default = read[0][1].content["default"]
         found = {
             name: self._panel(name, panel, efforts.content, default, study=number > 0)

@@ -1,8 +1,6 @@
 """Compiles and runs the programs of build/bin."""
 
 import os
-import shutil
-import signal
 import subprocess
 import sys
 from functools import cache
@@ -78,31 +76,9 @@ def command_line(run: Run, threads: int = 1) -> list[str]:
     return [f"build/bin/{run.program}", *arguments(run.options), *conduct]
 
 
-def execute(program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS) -> str:
-    """Executes a program, which writes its result to `output`, and returns its messages. Raises
-    ProgramError with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
-    command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
-    if shutil.which(
-        "setpriv"
-    ):  # Linux only: if this process dies, the program writes its checkpoint and exits
-        command = ["setpriv", "--pdeathsig", "TERM", *command]
-    lines: list[str] = []
-    # In a session of its own the program does not receive the Ctrl-C of the terminal, only the one signal
-    # sent below.
-    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
-        assert running.stderr
-        try:
-            lines.extend(running.stderr)
-        except KeyboardInterrupt:
-            running.send_signal(signal.SIGINT)
-            print(running.stderr.read(), end="", file=sys.stderr)
-            running.wait()
-            raise
-    if running.returncode < 0:
-        name = signal.Signals(-running.returncode).name
-        raise ProgramError(
-            f"{program} was killed by {name}; run it again: it continues at its last checkpoint"
-        )
-    if running.returncode not in WRITTEN:
-        raise ProgramError("".join(lines).strip())
-    return "".join(lines)
+def execute(program: str, options: Options, output: Path, programs: Path = PROGRAMS) -> None:
+    """Executes a program, which writes its result to `output`. Raises ProgramError with what it prints."""
+    command = [str(programs / program), *arguments(options), "--overwrite", "--output", str(output)]
+    done = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode not in WRITTEN:
+        raise ProgramError(done.stderr.strip() or f"{program} exits with {done.returncode}")

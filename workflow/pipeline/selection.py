@@ -6,10 +6,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from workflow.lib.suggestion import suggestion
-from workflow.pipeline.configuration import ConfigurationError, Options, require_short, with_effort
+from workflow.pipeline.configuration import (
+    PANELS,
+    ConfigurationError,
+    Options,
+    refuse_rounding_errors,
+    with_effort,
+)
 from workflow.pipeline.polynomial import NUMBER
 
-QUALITIES = ("smoke", "standard", "paper")
+QUALITIES = [path.stem for path in sorted((PANELS[0].parent / "quality").glob("*.yaml"))]
 DEFAULT_QUALITY = "standard"
 EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
     "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
@@ -44,7 +50,7 @@ class Selection:
             pattern, number, allowed = EFFORTS[key]
             if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
-            require_short(text)
+            refuse_rounding_errors(text)
             values[key] = number(text)
         if "error" in values and "replicas" in values:
             raise ConfigurationError(

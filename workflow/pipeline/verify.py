@@ -6,7 +6,6 @@ Exit status: 0 if all agree, 1 if not, 3 if there is nothing to rerun or a rerun
 import os
 import random
 import shutil
-import signal
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -36,7 +35,6 @@ def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
         print(f"Nothing to verify: run make figures {plan.selection.arguments}")
         return 3
     lock(BUILD)
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # by which execute() stops the program
     programs = sorted({runs[path].program for path in made})
     fresh = BUILD / identity_of([source_hash(program) for program in all_programs()])
     for former in (folder for folder in BUILD.iterdir() if folder.is_dir() and folder != fresh):
@@ -51,7 +49,7 @@ def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
     for number, path in enumerate(made, 1):
         run, again = runs[path], fresh / "again.h5"
         try:
-            execute(run.program, run.options, again, "--overwrite", programs=fresh / "bin")
+            execute(run.program, run.options, again, fresh / "bin")
             equal = equal_values(load(path), load(again))
             differing += not equal
             text = "equal" if equal else f"differs: {least_probable(load(path), load(again))}"

@@ -53,7 +53,7 @@ def function_of(row: Mapping[str, str]) -> Claim:
     return function
 
 
-def short(row: Mapping[str, str]) -> str:
+def label(row: Mapping[str, str]) -> str:
     """The statement in at most MOST_LETTERS letters."""
     return row["short"] or row["statement"]
 
@@ -68,9 +68,9 @@ def read_claims(root: Path) -> list[dict[str, str]]:
             function_of(row)
             if row["kind"] not in KINDS:
                 raise ValueError(f"{row['kind']} is not a kind: write {' or '.join(KINDS)}")
-            if len(short(row)) > MOST_LETTERS:
+            if len(label(row)) > MOST_LETTERS:
                 raise ValueError(
-                    f"'{short(row)}' has more than {MOST_LETTERS} letters: write it shorter in `short`"
+                    f"'{label(row)}' has more than {MOST_LETTERS} letters: write it shorter in `short`"
                 )
     except (ValueError, KeyError, AttributeError) as error:  # errors of pandas are ValueErrors
         raise FormatError(f"{CLAIMS_FILE}: {error}") from error

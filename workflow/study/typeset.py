@@ -34,7 +34,7 @@ def value(number: Estimate) -> str:
     """Number with its standard error and the bound on its systematic error in units of the last digit; ±
     the bound without a standard error."""
     if not number.error and abs(number.value) < number.systematic:
-        return f"0 to rounding{BOUND}{short(number.systematic)}"
+        return f"0 to rounding{BOUND}{two_digits(number.systematic)}"
     size = max(abs(number.value), number.error, number.systematic)
     if 0 < size < 1e-3:
         power = math.floor(math.log10(size))
@@ -42,10 +42,10 @@ def value(number: Estimate) -> str:
         return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
     if math.isnan(number.error):
         return f"{number.value:.4g} (error unknown)".replace("-", MINUS)
-    bound = "" if number.error or not number.systematic else f"{BOUND}{short(number.systematic)}"
+    bound = "" if number.error or not number.systematic else f"{BOUND}{two_digits(number.systematic)}"
     return f"{format_with_error(number.value, number.error, number.systematic)}{bound}"
 
 
-def short(size: float) -> str:
+def two_digits(size: float) -> str:
     """Two digits, with a power of ten where there would be many zeros."""
     return scientific(size) if 0 < size < 1e-3 else f"{size:.2g}"

@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from workflow.lib import style
 from workflow.lib.figure import Parts
 from workflow.lib.load import Result
-from workflow.study.judge import Judgement, judge_all, of_release, short
+from workflow.study.judge import Judgement, judge_all, label, of_release
 from workflow.study.results import Results
 from workflow.study.verdict import Band, Outcome
 
@@ -63,7 +63,7 @@ def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], 
             "claim": key[0],
             "kind": key[1],
             "panel": row["panel"],
-            "statement": short(row),
+            "statement": label(row),
         }
         columns |= {
             "verdict": verdict.outcome.value,
