@@ -1,9 +1,9 @@
 # `make help` lists the targets. No environment has to be activated. The entry removes the variables of the caller's shell that could change
 # a result (workflow/pipeline/environment/variables.py).
-SHELL := bash
+SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 export LC_ALL := C.UTF-8
-export HOME := $(shell [ -w "$$HOME" ] && echo "$$HOME" || echo "$(CURDIR)/.cache")
+export HOME := $(shell [ -w "$${HOME:-}" ] && echo "$$HOME" || echo "$(CURDIR)/.cache")
 unexport BASH_ENV ENV VIRTUAL_ENV
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -53,6 +53,8 @@ format: setup-dev  ## Format every source in place
 bench: setup-dev build  ## Cost of an event
 	bash workflow/pipeline/environment/build.sh benchmarks
 	build/bin/benchmarks
+.DEFAULT:
+	echo '$@ is not a target; write make panel PANEL=$@, or see make help' >&2; exit 2
 clean:  ## Remove build (programs, logs) and caches; results and figures stay
 	rm -rf build .cache
 .PHONY: help figures panel report gallery audit status verify provenance prune present setup setup-dev build test test-long check format bench clean

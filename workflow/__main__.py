@@ -75,6 +75,8 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
         if name not in allowed:
             reason = f"has no effect on {target}" if name in every else "is not an option"
             remedy = suggestion(name.upper(), allowed) if allowed else "leave it out"
+            if (target, name) == ("figures", "PANEL"):
+                remedy = f"write make panel {word}"
             raise UsageError(f"{name} {reason}; {remedy}")
         pattern, description = ALLOWED.get(name, (".*", ""))
         if not re.fullmatch(pattern, given[name]):

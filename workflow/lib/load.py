@@ -16,6 +16,7 @@ import numpy as np
 if TYPE_CHECKING:
     import pandas as pd
 
+from workflow.lib.fit import format_with_error
 from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of, series_of
 from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
@@ -104,13 +105,32 @@ def _measured(array: np.ndarray | None) -> np.ndarray:
     return array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     path: Path
     parameters: dict[str, Any]
     provenance: dict[str, Any]
     quantities: dict[str, Quantity]
     parameter_units: dict[str, str] = field(default_factory=dict)  # of those that have a dimension
+
+    def __repr__(self) -> str:
+        """Program, options, target quantity, doubts: a line each."""
+        target = self.provenance.get("target_quantity", "")
+        lines = [
+            str(self.path),
+            f"{self.provenance.get('program')} {self.provenance.get('option_words', '')}",
+        ]
+        if target in self.quantities:
+            quantity = self[target]
+            error = quantity.discretisation_error if quantity.count is None else quantity.standard_error
+            text = f" along {', '.join(quantity.axes)}" if quantity.axes else ""
+            if error is not None and not quantity.axes:
+                text = f" = {format_with_error(float(quantity.mean), float(error))} {quantity.units}".removesuffix(
+                    " 1"
+                )
+            lines.append(target + text)
+        lines.append(f"doubts: {'; '.join(self.doubts) or 'none'}")
+        return "\n".join(lines)
 
     def __getitem__(self, name: str) -> Quantity:
         if name not in self.quantities:

@@ -17,6 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from shlex import quote
 from typing import NamedTuple
 
 from workflow.lib.identity import ROOT, panel_of, run_of, sha256, siblings
@@ -77,6 +78,19 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
             "stale", nearest, ", ".join(differing) + "; it is of the release" * (nearest in tracked())
         )
     return None
+
+
+def faults_of_results(runs: Mapping[str, Run]) -> Iterator[Fault]:
+    yield from filter(None, (fault_of_result(path, run) for path, run in runs.items()))
+
+
+def edited(panels: Iterable[Panel]) -> Iterator[Fault]:
+    """Files of panels, and results that they plot, that were edited since the panel was made."""
+    for panel in panels:
+        yield from filter(None, [fault_of_files(panel)])
+        for path, digest in panel.record.get("parents", {}).items():
+            if path.endswith(".h5") and hash_if_readable(path) not in (digest, ""):
+                yield Fault("edited", path, f"it differs from what {panel.name} plots; remove it")
 
 
 def changes(run: Run, sibling: Path) -> list[str]:
@@ -189,7 +203,12 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
         lock_products()  # build/audit is one folder
     requested = [plan[name] for name in names] or [*plan]
     made = [panel for panel in requested if is_made(panel)]
-    faults, alike = [*check(made, render)], defaultdict(list)
+    rest = [panel for panel in requested if panel not in made]
+    # Results of other panels, as of a quality without pictures: those that are missing are no fault.
+    unplotted = {path: run for path, run in runs_of(rest).items() if path not in runs_of(made)}
+    faults = [*check(made, render), *faults_of_results(unplotted)]
+    faults = [fault for fault in faults if fault.state != "missing" or fault.path not in unplotted]
+    alike = defaultdict(list)
     if not names and is_made(plan.report):
         faults += filter(None, [fault_of_files(plan.report)])
     for fault in faults:
@@ -197,13 +216,14 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     for (state, reason, _), (first, *more) in alike.items():
         print(f"{state}: {first}{f' and {len(more)} more' if more else ''}: {reason}")
     print_doubts(doubtful(made))
-    if rest := [panel.name for panel in requested if panel not in made]:
-        print(f"Not made at quality {plan.selection.name}: {', '.join(rest)}")
+    if rest:
+        print(f"Not made at quality {plan.selection.name}: {', '.join(panel.name for panel in rest)}")
     states = Counter(fault.state for fault in faults)
     listed = ", ".join(f"{number} {state}" for state, number in states.items()) or "all hold"
     if made:
         print(f"{len(made)} panel{'s' * (len(made) > 1)} with {len(runs_of(made))} results: {listed}")
     broken = states.keys() - {"not checked"}
     if broken & {"stale", "missing"}:
-        print(f"make report {plan.selection.arguments} makes stale and missing files")
+        target = f"panel PANEL={quote(' '.join(names))}" if names else "report"
+        print(f"make {target} {plan.selection.arguments} makes stale and missing files")
     return 1 if broken else 3 if states or not made else 0

@@ -66,12 +66,25 @@ def least_probable(one: Result, other: Result) -> Difference | None:
     return Difference(*min(found), len(found)) if found else None
 
 
+def print_effort(results: Sequence[Result]) -> None:
+    """Prints the replicas of results with a target error, and the errors that they have reached."""
+    replicas = [result.replicas for result in results]
+    errors = [float(result.provenance["achieved_error"]) for result in results]
+    print(
+        f"{min(replicas)} to {max(replicas)} replicas (at least 64) gave relative errors of the target quantities of "
+        f"{np.nanmin(errors):.2g} to {np.nanmax(errors):.2g}"
+    )
+
+
 def compare(plan: Plan, names: Sequence[str]) -> int:
     """Compares the results of the named panels with those of the quality without an effort. Exit status: 0,
     1 if a difference is less probable than SIGNIFICANCE."""
     quality = Plan(plan.selection.quality)
     alike, found, left_out = 0, [], []
-    for path, run in runs_of([plan[name] for name in names]).items():
+    runs = runs_of([plan[name] for name in names])
+    if limited := [load(path) for path, run in runs.items() if "target-error" in run.options]:
+        print_effort(limited)
+    for path, run in runs.items():
         former = quality[run.panel].run(run.name).path
         if Path(former).is_file():
             try:

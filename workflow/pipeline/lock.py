@@ -22,5 +22,5 @@ def lock(folder: Path) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
         raise BlockingIOError(
-            f"Another command is making products in {folder.absolute()}: wait for it to finish, or stop it."
+            f"another command of make or Snakemake is at work in {folder.absolute().parent}: wait for it, or stop it"
         ) from error

@@ -9,7 +9,7 @@ from pathlib import Path
 from threading import Event, Thread
 
 from workflow.lib.identity import panel_of
-from workflow.pipeline.audit import TOO_SHORT
+from workflow.pipeline.audit import TOO_SHORT, edited
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment import variables
 from workflow.pipeline.lock import lock_products
@@ -68,16 +68,24 @@ def make(target: str, selection: str, names: list[str], options: argparse.Namesp
             return 128 + variables.stopped[0]
         if status:
             return report_failure(unmade)
-    shown = {"selection": selection, "arguments": plan.selection.arguments, "panel": " ".join(names)}
-    print(DONE[target].format_map(shown))
-    if found := [path for path in doubtful(panels) if panel_of(path) not in TOO_SHORT]:
-        number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
-        print(f"{number} doubts: make status {plan.selection.arguments}")
-    if target in ("figures", "panel") and (options.seed or options.replicas):
+    words = {"selection": selection, "arguments": plan.selection.arguments, "panel": " ".join(names)}
+    print(DONE[target].format_map(words))
+    report_defects(plan, panels)
+    if target in ("figures", "panel") and plan.selection.name != plan.selection.quality:
         from workflow.pipeline.compare import compare  # noqa: PLC0415  0.5 s
 
         return compare(plan, [panel.name for panel in panels])
     return 0
+
+
+def report_defects(plan: Plan, panels: Sequence[Panel]) -> None:
+    """Prints files that were edited by hand, and the number of doubtful runs."""
+    for fault in edited(panels):
+        print(f"{fault.path}: {fault.reason}, then repeat the command", file=sys.stderr)
+    if found := [path for path in doubtful(panels) if panel_of(path) not in TOO_SHORT]:
+        number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
+        few = "; at smoke few replicas are intended" * (plan.selection.quality == "smoke")
+        print(f"{number} doubts{few}: make status {plan.selection.arguments}")
 
 
 def snakemake(targets: Sequence[str], selection: str, options: argparse.Namespace) -> int:

@@ -39,6 +39,7 @@ for packages in "$folder"/lib/python3*/site-packages; do
   echo ../../../.. >"$packages/project.pth" # from the folder that the environment is in
 done
 # `uv sync` would need the index in uv.lock; this installs from a mirror, too, with the locked hashes. Other packages of the user stay.
+echo 'Installing the locked Python packages into .venv'
 "$uv" export --quiet --frozen --no-emit-project $groups >"$folder/locked.txt"
 "$uv" pip install --quiet --python "$folder" --require-hashes --requirement "$folder/locked.txt"
 if [ "$folder" != .venv ]; then
