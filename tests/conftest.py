@@ -1,10 +1,18 @@
-"""Ends every test that takes too long, as failed."""
+"""Ends every test that takes too long, as failed. Signals act as in a terminal, also under nohup."""
 
 import signal
 from collections.abc import Generator
 from types import FrameType
 
 import pytest
+
+for number in (
+    signal.SIGINT,
+    signal.SIGHUP,
+    signal.SIGTERM,
+):  # processes of the tests inherit what is ignored
+    if signal.getsignal(number) == signal.SIG_IGN:
+        signal.signal(number, signal.SIG_DFL)
 
 SECONDS = {False: 600, True: 1800}  # time limit of a test with its fixtures; True: of a long test
 

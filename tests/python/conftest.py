@@ -73,7 +73,10 @@ def simulate(simulator: str, **options: object) -> np.ndarray:
     """Table printed by a reference simulator of tests/cpp/reference, as numbers. Raises
     CalledProcessError."""
     dashed = {name.replace("_", "-"): value for name, value in options.items()}
-    command = [str(ROOT / "build/bin/reference_simulator"), simulator, *arguments(dashed)]
+    program = ROOT / "build/bin/reference_simulator"
+    if not program.exists():  # `make build` compiles no tests
+        subprocess.run(["bash", "workflow/pipeline/environment/build.sh", program.name], cwd=ROOT, check=True)
+    command = [str(program), simulator, *arguments(dashed)]
     printed = subprocess.check_output(command, text=True)
     return np.array([line.split() for line in printed.splitlines()], dtype=float)
 

@@ -52,7 +52,7 @@ def test_format_with_error_has_two_digits_of_the_error() -> None:
     texts |= {
         (0.5, 0.0996): "0.50(10)",
         (-0.322, 0.0517): "−0.322(52)",
-        (2.5, np.nan): "2.5",
+        (2.5, np.nan): "2.5(?)",
         (-2.5, 0): "−2.5",
     }
     assert {numbers: format_with_error(*numbers) for numbers in texts} == texts

@@ -24,7 +24,9 @@ SIGMA = [-0.9, -0.6, -0.3, 0.3, 0.6, 0.9]
 def follow(project: Project, block: re.Match[str]) -> str:
     """Writes a file or executes commands; returns what they print."""
     if block["path"]:
-        with (project.folder / block["path"]).open("a") as file:
+        path = project.folder / block["path"]
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("a") as file:
             file.write(block["text"])
         return ""
     return project.run("bash", "-e", "-c", block["text"]).stdout

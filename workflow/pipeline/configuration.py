@@ -2,6 +2,7 @@
 declared options of the programs."""
 
 import json
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -24,7 +25,10 @@ Options = dict[str, Any]  # by name without leading dashes: a number, text, or a
 Schema = dict[str, Any]
 Keys = tuple[Any, ...]  # path in nested mappings and lists
 
-PANELS = (ROOT / "workflow/config/paper.yaml", ROOT / "workflow/study/study.yaml")
+STUDY = ROOT / "workflow/study/study.yaml"
+# Files with panels: the paper's, those of the study, those of the user, which are not in git.
+PANELS = (ROOT / "workflow/config/paper.yaml", STUDY, ROOT / "own/panels.yaml")
+SCRIPTS = {STUDY: "workflow/study", PANELS[2]: "own"}  # folders of their scripts
 ERROR = "error"  # relative error, in place of a number of replicas
 EFFORT_OPTIONS = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
 ALSO_PHYSICS = ("cells", "observation-time")  # given in paper.yaml, too
@@ -51,13 +55,20 @@ class ConfigurationError(ValueError):
 class Document:
     """A YAML file."""
 
-    name: str
+    file: Path
     root: Node | None
     content: Any
+
+    @property
+    def name(self) -> str:
+        """The path relative to the project's folder."""
+        return _shown(self.file)
 
     def check(self, schema: Schema) -> None:
         """Validates the content. Raises ConfigurationError."""
         complaints: dict[tuple[int, int], str] = {}  # a shared mapping is reported once
+        for keys in _not_finite(self.content):
+            complaints[self._position(keys)] = self.complaint(keys, "is not a finite number: give one")
         for error in Draft202012Validator(schema).iter_errors(self.content):
             for keys, problem in _problems(error):
                 complaints.setdefault(self._position(keys), self.complaint(keys, problem))
@@ -86,7 +97,7 @@ def read(path: Path) -> Document:
         root = SAFE.compose(text)
         # This also merges the mappings of the node.
         content = SAFE.constructor.construct_document(root) if root else None
-        return Document(_shown(path), root, content)
+        return Document(path, root, content)
     except OSError as error:
         raise ConfigurationError(format_os_error(error)) from error
     except MarkedYAMLError as error:
@@ -129,7 +140,8 @@ def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document,
     default effort for the first of the files. Options of a program that is not compiled are not validated:
     reading needs no compiler, and nothing is computed before. Raises ConfigurationError."""
     programs: dict[str, Schema] = {name: {} for name in names_of_programs()} | options_of_programs()
-    panels, efforts = read(file), read(file.parent / f"quality/{quality}.yaml")
+    panels, effort = read(file), file.parent / f"quality/{quality}.yaml"
+    efforts = read(effort) if effort.exists() or file == first else Document(effort, None, {"panels": {}})
     panels.check(_panels(programs))
     panels.check(_physics(panels.content, programs))
     required = ["default"] if file == first else ["panels"]
@@ -238,19 +250,36 @@ def _of_size(name: str, option: Schema) -> Schema:
     """Schema of an option in the configuration, where times and gamma may be polynomials in N, which the
     plan evaluates."""
     polynomial = {"type": "string", "pattern": f"^{POLYNOMIAL}$"}
-    of_size = name.endswith("-time") or name == "gamma"
-    return {"if": polynomial, "then": True, "else": option} if of_size else option
+    if not (name.endswith("-time") or name == "gamma"):
+        return option
+    allowed = f"{option['allowed']}, or a sum in N without blanks, as 50+0.01N^2"
+    return {"if": polynomial, "then": True, "else": option | {"allowed": allowed}}
 
 
 def _object(properties: Schema) -> Schema:
     return {"type": "object", "properties": properties, "additionalProperties": False}
 
 
+def _not_finite(content: Any, keys: Keys = ()) -> Iterator[Keys]:
+    """Paths of .nan and .inf, which no schema refuses."""
+    if isinstance(content, float) and not math.isfinite(content):
+        yield keys
+    members = (
+        content.items()
+        if isinstance(content, dict)
+        else enumerate(content)
+        if isinstance(content, list)
+        else ()
+    )
+    for key, member in members:
+        yield from _not_finite(member, (*keys, key))
+
+
 def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
     """Path and description of each problem that a validation error reports."""
     keys, schema = tuple(error.absolute_path), error.schema
     assert isinstance(schema, dict)
-    value = json.dumps(error.instance, default=str)
+    value = json.dumps(error.instance, default=str, ensure_ascii=False)
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         for name in error.instance.keys() - schema["properties"].keys():
             unknown = schema.get("unknown", "unknown key")
@@ -260,7 +289,13 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
     elif error.validator == "enum":
         unknown, new = schema.get("unknown", "is unknown"), "" if "unknown" in schema else NEW
         yield keys, f"{value} {unknown}; {suggestion(str(error.instance), schema['enum'])}{new}"
+    elif error.validator == "uniqueItems" and isinstance(error.instance, list):
+        repeated = next(one for one in error.instance if error.instance.count(one) > 1)
+        yield keys, f"{json.dumps(repeated)} is listed more than once: give it once"
     elif "allowed" in schema:
+        keys = (
+            (*keys, str(error.instance)) if schema is NAME else keys
+        )  # the error of a name is at its mapping
         yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
     else:
         yield keys, error.message

@@ -13,6 +13,8 @@ from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import (
     EFFORT_OPTIONS,
     PANELS,
+    SCRIPTS,
+    STUDY,
     ConfigurationError,
     Document,
     Options,
@@ -157,8 +159,8 @@ class Plan:
         ]
         default = read[0][1].content["default"]
         found = {
-            name: self._panel(name, panel, efforts.content, default, study=number > 0)
-            for number, (document, efforts) in enumerate(read)
+            name: self._panel(name, panel, efforts.content, default, document.file)
+            for document, efforts in read
             for name, panel in document.content["panels"].items()
         }
         uses = {
@@ -193,7 +195,7 @@ class Plan:
         return Panel(REPORT, self.selection.name, script, figures=tuple(self), inputs=tuple(inputs))
 
     def _panel(
-        self, name: str, panel: dict[str, Any], efforts: dict[str, Any], default: Options, *, study: bool
+        self, name: str, panel: dict[str, Any], efforts: dict[str, Any], default: Options, file: Path
     ) -> Panel:
         own = efforts.get("panels", {}).get(name, {})
         runs: list[Run] = []
@@ -207,11 +209,13 @@ class Plan:
             effort = with_effort({}, *general, own.get(series, {}))
             replaced += [f"{key} of {series}" for key in effort if key in physics]
             runs += self._runs(name, series, program, physics | effort)
-        script = f"workflow/{'study' if study else 'figures'}/{panel.get('script', name)}.py"
+        script = f"{SCRIPTS.get(file, 'workflow/figures')}/{panel.get('script', name)}.py"
         inputs = tuple(
             path for path in panel.get("inputs", ()) if path != NUMBERS or states_release(self.selection.name)
         )
-        return Panel(name, self.selection.name, script, tuple(runs), (), (), inputs, tuple(replaced), study)
+        return Panel(
+            name, self.selection.name, script, tuple(runs), (), (), inputs, tuple(replaced), file == STUDY
+        )
 
     def _runs(self, panel: str, series: str, program: str, options: Options) -> Iterator[Run]:
         """The runs of a series: one for each combination of the values of options with a list."""
