@@ -30,8 +30,9 @@ if unknown := {*config} - {"quality"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality=")
 try:
     PLAN = Plan(config.get("quality", DEFAULT_QUALITY))
-    PANELS = [*PLAN, PLAN.report]
+    PANELS = [*PLAN, *[PLAN.report] * (PLAN.report is not None)]
     FILES = {panel.name: panel.files for panel in PANELS}
+    PARENTS = {panel.name: panel.parents for panel in PANELS}
     if workflow.is_main_process and not workflow.output_settings.dryrun:
         lock_products()
 except ConfigurationError as error:
@@ -50,9 +51,9 @@ onstart:
     stop_at_first_signal()
 
 
-def present(panel):
-    """Inputs of a panel, which are made if they are missing, whatever their times."""
-    return [ancient(path) for path in panel.parents]
+def whole(panels):
+    """Files of panels and what they are made from, which are made if they are missing, whatever their times."""
+    return [ancient(path) for panel in panels for path in [*PARENTS[panel.name], *FILES[panel.name]]]
 
 
 def of_panel(wildcards):
@@ -71,18 +72,25 @@ def command(wildcards, threads):
 
 rule figures:
     input:
-        [ancient(path) for panel in PLAN.paper for path in [*panel.parents, *FILES[panel.name]]],
+        whole(PLAN.paper),
     localrule: True
 
 
 for panel in PANELS:
 
-    # A panel whose script fails keeps its former files: update() restores them. Its record has another name.
     rule:
         name:
             panel.name
         input:
-            present(panel),
+            whole([panel]),
+        localrule: True
+
+    # A panel whose script fails keeps its former files: update() restores them. Its record has another name.
+    rule:
+        name:
+            f"render_{panel.name}"
+        input:
+            [ancient(path) for path in PARENTS[panel.name]],
         output:
             [update(path) for path in FILES[panel.name][:-1]],
             FILES[panel.name][-1],
@@ -96,12 +104,14 @@ for panel in PANELS:
             "{params.command} 2> {log:q}"
 
 
-rule gallery:
-    input:
-        present(PLAN.report),
-    localrule: True
-    shell:
-        "{PYTHON} -m workflow.study.report {PLAN.selection.name} --gallery"
+if PLAN.report:
+
+    rule gallery:
+        input:
+            whole(PLAN),
+        localrule: True
+        shell:
+            "{PYTHON} -m workflow.study.report {PLAN.selection.name} --gallery"
 
 
 # One run of a program. Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the

@@ -104,7 +104,7 @@ def require_profile(profile: str) -> None:
         )
 
 
-def execute(target: str, options: argparse.Namespace) -> int:
+def run_target(target: str, options: argparse.Namespace) -> int:
     """Executes a target. Returns the exit status. Raises UsageError, ConfigurationError, BuildError,
     OSError, CalledProcessError."""
     # Modules are imported by the targets that need them: make status takes a second.
@@ -145,7 +145,7 @@ def main() -> int:
         options = parse(target, words)
         options.file = Path(os.path.abspath(options.file))
         os.chdir(ROOT)
-        return execute(target, options)
+        return run_target(target, options)
     except (UsageError, ConfigurationError, BuildError) as error:
         print(error, file=sys.stderr)
         return 1 if isinstance(error, BuildError) else 2

@@ -72,6 +72,7 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
         completed = Selection.parse("smoke_replicas=5").with_effort("fig05/paper", given | {"sigma": 0}, None)
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
     assert Selection.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
+    assert Selection.parse("smoke_error=0.50_seed=7").name == "smoke_seed=7_error=0.5"  # one folder
     quality = Selection.parse("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
     completed = quality.with_effort("fig05/paper", {"replicas": 500, "sigma": 0}, 200)

@@ -58,7 +58,7 @@ CHANGES: dict[str, tuple[Edit, set[str]]] = {
     "nothing that matters": (unimportant, set()),
     "deleted result": (
         lambda project: project.one("data/smoke/energy/few.*.h5").unlink(),
-        {"energy/few"},
+        {"energy/few", "energy"},
     ),
     "deleted records": (
         lambda project: [path.unlink() for path in project.folder.glob("figures/smoke/*.json")],
@@ -159,6 +159,32 @@ def test_a_wrong_result_is_refused_and_takes_no_other_panel_with_it(project: Pro
     text(PAPER, "cells: 4, particles-per-cell: 4, r", "particles-per-cell: 4, cells: 4, r")(project)
     project.entry("figures")
     assert project.products() == before
+
+
+def test_a_mistake_in_a_script_keeps_the_former_files_and_is_one_line(project: Project) -> None:
+    """Detected mistakes: Snakemake deletes the files before the script starts; the reason of a former failure."""
+    before = project.files("figures/smoke")
+    append("workflow/figures/mu.py", "x = 1 / 0\n")(project)
+    number = len((project.folder / "workflow/figures/mu.py").read_text().splitlines())
+    printed = project.entry("figures", status=1)
+    assert f"mu: workflow/figures/mu.py:{number}: ZeroDivisionError: division by zero" in printed
+    assert "1 other panel is made" in printed
+    assert project.files("figures/smoke") == before
+    text("workflow/figures/mu.py", "1 / 0", "1")(project)
+    append("Snakefile", "x = 1 / 0\n")(project)
+    printed = project.entry("figures", status=1)
+    assert "mu.py:" not in printed
+    assert "build/logs/snakemake.log" in printed
+
+
+def test_the_study_may_be_missing(project: Project) -> None:
+    """As of a colleague who needs one figure."""
+    shutil.rmtree(project.folder / "workflow/study")
+    append("workflow/figures/mu.py", "# x\n")(project)
+    project.entry("figures")
+    project.entry("status")
+    project.snakemake()
+    assert "workflow/study" in project.entry("report", status=2)
 
 
 def test_a_script_that_imports_another_is_refused(project: Project) -> None:

@@ -3,7 +3,7 @@
 A script, FIGURE.py in workflow/figures, defines draw(results), and TITLE, or title(results) where it differs
 between panels. `@plots` before draw names the plotted series. UNITS has the units of columns that are not
 named after a quantity, an axis or an option; they also hold for the columns of their errors. Anything else is
-in workflow/lib and workflow/physics, or named by `reads` of the panel.
+in workflow/lib and workflow/physics, or named by `inputs` of the panel.
 """
 
 import inspect

@@ -70,7 +70,7 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
     except FormatError as error:
         if Path(path).exists():
             return Fault("edited", path, str(error).removeprefix(path).strip(": "))
-        former = [(changes(run, sibling), str(sibling)) for sibling in siblings(path)]
+        former = [(differences_of_result(run, sibling), str(sibling)) for sibling in siblings(path)]
         if not former:
             return Fault("missing", path, "it is not there")
         differing, nearest = min(former, key=lambda pair: len(pair[0]))
@@ -93,7 +93,7 @@ def edited(panels: Iterable[Panel]) -> Iterator[Fault]:
                 yield Fault("edited", path, f"it differs from what {panel.name} plots; remove it")
 
 
-def changes(run: Run, sibling: Path) -> list[str]:
+def differences_of_result(run: Run, sibling: Path) -> list[str]:
     """Options and sources that differ between a run and a former result."""
     try:
         former = load_provenance(sibling)
@@ -121,7 +121,7 @@ def fault_of_files(panel: Panel) -> Fault | None:
         former = next(filter(None, map(read_record, siblings(path))), None)
         if former is None:
             return Fault("missing", path, "it is not there")
-        return Fault("stale", panel.files[0], changed(panel, former["parents"]))
+        return Fault("stale", panel.files[0], differences(panel, former["parents"]))
     for suffix, digest in record["files"].items():
         file = f"{panel.stem}.{suffix}"
         if not Path(file).exists():
@@ -131,7 +131,7 @@ def fault_of_files(panel: Panel) -> Fault | None:
     return None
 
 
-def changed(panel: Panel, former: Mapping[str, str]) -> str:
+def differences(panel: Panel, former: Mapping[str, str]) -> str:
     """What differs from the parents of a former record: sources by their paths; results or figures."""
     sources = panel.sources
     made = {path for path in former if path.startswith(("data/", "figures/")) and path not in sources}
@@ -149,7 +149,9 @@ def faults_of_rendering(panels: Iterable[Panel]) -> Iterator[Fault]:
         again = f"{folder}/{panel.selection}/{panel.name}"
         done = subprocess.run(panel.command(again), capture_output=True, text=True, check=False)
         if done.returncode:
-            return Fault("not checked", panel.files[0], f"rendering fails: {done.stderr.strip()[-200:]}")
+            return Fault(
+                "not checked", panel.files[0], f"rendering fails: {(done.stderr.splitlines() or ['?'])[-1]}"
+            )
         return fault_of_bytes(panel, again)
 
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
@@ -209,8 +211,11 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     faults = [*check(made, render), *faults_of_results(unplotted)]
     faults = [fault for fault in faults if fault.state != "missing" or fault.path not in unplotted]
     alike = defaultdict(list)
-    if not names and is_made(plan.report):
-        faults += filter(None, [fault_of_files(plan.report)])
+    if not names and plan.report:
+        if is_made(plan.report):
+            faults += filter(None, [fault_of_files(plan.report)])
+        else:
+            rest.append(plan.report)
     for fault in faults:
         alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)
     for (state, reason, _), (first, *more) in alike.items():

@@ -40,6 +40,11 @@ OF_SERIES: Schema = {
     "common-seed": {"type": "boolean", "allowed": "true or false"},  # of all such runs of the panel
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
+# Names of panels are rules of Snakemake.
+PANEL_NAME = NAME | {
+    "pattern": "^(?!(figures|report|gallery|simulate)$)[A-Za-z0-9_-]+$",
+    "allowed": "letters, digits, _ and -, but not figures, report, gallery or simulate",
+}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
 NAMES: Schema = {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True}
 NEW = " (after a change of the programs: run make build)"
@@ -156,7 +161,7 @@ def programs_of(panel: dict[str, Any]) -> dict[str, str]:
     }
 
 
-def with_effort(options: Options, *efforts: Options) -> Options:
+def merge_efforts(options: Options, *efforts: Options) -> Options:
     """Options with efforts, of which later ones replace earlier ones; of replicas and error, each of which
     determines the number of replicas, the last one given counts."""
     for effort in efforts:
@@ -192,7 +197,8 @@ def _panels(programs: dict[str, Schema]) -> Schema:
     )
     panel["if"] = {"not": {"required": ["program"]}}
     panel["then"] = {"properties": {"series": {"additionalProperties": {"required": ["program"]}}}}
-    return _object({"panels": NAMED | {"additionalProperties": panel}}) | {"required": ["panels"]}
+    named = NAMED | {"propertyNames": PANEL_NAME, "additionalProperties": panel}
+    return _object({"panels": named}) | {"required": ["panels"]}
 
 
 def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
@@ -294,7 +300,7 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
         yield keys, f"{json.dumps(repeated)} is listed more than once: give it once"
     elif "allowed" in schema:
         keys = (
-            (*keys, str(error.instance)) if schema is NAME else keys
+            (*keys, str(error.instance)) if schema in (NAME, PANEL_NAME) else keys
         )  # the error of a name is at its mapping
         yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
     else:

@@ -4,7 +4,7 @@ import argparse
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
 from threading import Event, Thread
 
@@ -29,53 +29,61 @@ DONE = {  # of the targets of Snakemake
 
 def make(target: str, selection: str, names: list[str], options: argparse.Namespace) -> int:
     """Makes what is missing of a target of DONE; with DRY=yes, lists it. names: of the panels of the target
-    `panel`. After SEED and REPLICAS compares with the results of the quality. Returns the exit status. Raises
+    `panel`. After an effort compares with the results of the quality. Returns the exit status. Raises
     ConfigurationError, BuildError, OSError, CalledProcessError."""
-
-    def requested() -> tuple[Plan, list[Panel]]:
-        plan = Plan(selection)
-        return plan, [plan[name] for name in names] or (plan.paper if target == "figures" else [*plan])
-
-    if options.dry:
-        plan, panels = requested()
-    else:
+    if not options.dry:
         lock_products()
-        try:
-            plan, panels = requested()
-            complete = not missing(runs_of(panels))  # rendering needs no compiler
-        except ConfigurationError:  # perhaps by former programs
-            complete = False
-        if not complete:
-            compile_programs()
-            plan, panels = requested()
-    runs, products = runs_of(panels), [*panels, *[plan.report] * (target == "report")]
-    results, files = missing(runs), missing(path for panel in products for path in panel.files)
+        compile_if_necessary(target, selection, names)
+    plan = Plan(selection)
+    panels = requested(plan, target, names)
+    unmade = [panel for panel in panels if panel.is_incomplete()]
+    runs = runs_of(panels)
+    results = missing(runs)
     if options.dry:
-        print("\n".join([*results, *files]) or "Nothing to be made")
+        print(
+            "\n".join([*results, *(path for panel in unmade for path in panel.files)]) or "Nothing to be made"
+        )
         return 0
     for panel in (panel for panel in panels if names and panel.replaced):
         listed = ", ".join(panel.replaced)
         print(f"{panel.name}: other {listed} in quality/{plan.selection.quality}.yaml than in paper.yaml")
-    if results or files or target == "gallery":
+    if unmade or target == "gallery":
         for program in {runs[path].program for path in results}:
             require_built(program)
-        unmade = [panel for panel in products if missing(panel.files)]
+        begin = time.time()
         with progress(unmade, results):
-            targets = [*results, *files, *[target] * (target == "gallery")]
-            status = snakemake(targets, selection, options)
+            status = snakemake(names or [target], selection, options)
         if variables.stopped:
             print("Stopped; the same command resumes", file=sys.stderr)
             return 128 + variables.stopped[0]
         if status:
-            return report_failure(unmade)
+            report_failure(panels, begin)
+            return 1
     words = {"selection": selection, "arguments": plan.selection.arguments, "panel": " ".join(names)}
     print(DONE[target].format_map(words))
     report_defects(plan, panels)
-    if target in ("figures", "panel") and plan.selection.name != plan.selection.quality:
+    if target in ("figures", "panel") and plan.selection.effort:
         from workflow.pipeline.compare import compare  # noqa: PLC0415  0.5 s
 
         return compare(plan, [panel.name for panel in panels])
     return 0
+
+
+def requested(plan: Plan, target: str, names: Sequence[str]) -> list[Panel]:
+    """The panels of a target, for `report` with the report. Raises ConfigurationError."""
+    if target in ("report", "gallery") and not plan.report:
+        raise ConfigurationError("there is no folder workflow/study, which makes the report")
+    if target == "report" and plan.report:
+        return [*plan, plan.report]
+    return [plan[name] for name in names] or (plan.paper if target == "figures" else [*plan])
+
+
+def compile_if_necessary(target: str, selection: str, names: Sequence[str]) -> None:
+    """Compiles the programs if results are missing: rendering needs no compiler. Raises CalledProcessError."""
+    with suppress(ConfigurationError):  # perhaps by former programs
+        if not missing(runs_of(requested(Plan(selection), target, names))):
+            return
+    compile_programs()
 
 
 def report_defects(plan: Plan, panels: Sequence[Panel]) -> None:
@@ -117,21 +125,20 @@ def progress(panels: Sequence[Panel], results: Sequence[str]) -> Iterator[None]:
     output, done = sys.stdout, Event()
 
     def watch() -> None:
-        pending, begin, printed = [*panels], time.monotonic(), time.monotonic()
+        pending, begin, last = [*panels], time.monotonic(), time.monotonic()
         while pending:
-            last = done.wait(1)
-            for panel in [panel for panel in pending if not missing(panel.files)]:
+            ended = done.wait(1)
+            for panel in [panel for panel in pending if not panel.is_incomplete()]:
                 pending.remove(panel)
                 print(f"{panel.name}: {printed_by(panel.log) or 'rendered'}", file=output, flush=True)
-            made = len(results) - len(missing(results))
-            minutes = (time.monotonic() - begin) / 60
-            line = f"{made} of {len(results)} results after {minutes:.1f} minutes"
+            now, made = time.monotonic(), len(results) - len(missing(results))
+            line = f"{made} of {len(results)} results after {(now - begin) / 60:.1f} minutes"
             if output.isatty():
                 print(line, end=" \r", file=output, flush=True)
-            elif results and time.monotonic() - printed > SECONDS:
+            elif results and now - last > SECONDS:
                 print(line, file=output, flush=True)
-                printed = time.monotonic()
-            if last:
+                last = now
+            if ended:
                 break
 
     watcher = Thread(target=watch, daemon=True)
@@ -143,20 +150,30 @@ def progress(panels: Sequence[Panel], results: Sequence[str]) -> Iterator[None]:
         watcher.join()
 
 
-def report_failure(unmade: Sequence[Panel]) -> int:
-    """Prints a line for each panel that is not made, with the reason. Returns the exit status."""
-    failed = [panel for panel in unmade if missing(panel.files)]
+def report_failure(panels: Sequence[Panel], begin: float) -> None:
+    """Prints a line for each panel that is not made, with the reason from a log that was written after a
+    time."""
+    failed = [panel for panel in panels if panel.is_incomplete()]
+    without = []
     for panel in failed:
-        lacking = missing(panel.parents)
-        logs = [path.removesuffix("h5") + "log" for path in lacking] or [panel.log]
-        log = next((log for log in logs if printed_by(log)), str(LOG))
-        reason = (printed_by(log) or "not made").splitlines()[-1]
-        missed = "figures are missing" if panel.figures and lacking else f"{reason} ({log})"
-        print(f"{panel.name}: {missed}", file=sys.stderr)
-    print(f"{len(unmade) - len(failed)} other panels are made", file=sys.stderr)
-    return 1
+        logs = [path.removesuffix("h5") + "log" for path in missing(run.path for run in panel.plotted)]
+        log = next((log for log in [*logs, panel.log] if printed_by(log, begin)), "")
+        if log:
+            print(f"{panel.name}: {printed_by(log).splitlines()[-1]} ({log})", file=sys.stderr)
+        else:
+            without.append(panel.name)
+    if without:
+        reason = (
+            ""
+            if without != [panel.name for panel in failed]
+            else f": {printed_by(str(LOG)).splitlines()[-1]}"
+        )
+        print(f"{', '.join(without)}: not made{reason} ({LOG})", file=sys.stderr)
+    if made := len(panels) - len(failed):
+        print(f"{made} other panel{'s are' if made > 1 else ' is'} made", file=sys.stderr)
 
 
-def printed_by(log: str) -> str:
-    """What the command with this log has printed, "" if there is no log."""
-    return Path(log).read_text().strip() if Path(log).exists() else ""
+def printed_by(log: str, begin: float = 0) -> str:
+    """What the command with this log has printed after a time, "" if there is no such log."""
+    path = Path(log)
+    return path.read_text().strip() if path.exists() and path.stat().st_mtime >= begin else ""

@@ -10,7 +10,7 @@ from typing import Any
 
 from workflow.lib.identity import named_identity, result_identity, sha256
 from workflow.lib.load import FormatError, load_provenance
-from workflow.pipeline.audit import changed
+from workflow.pipeline.audit import differences
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import FIGURES, REPORT, Plan, runs_of
 from workflow.pipeline.selection import QUALITIES, Selection
@@ -20,9 +20,9 @@ from workflow.render.record import FORMER, SHARED, read_identity_line, read_reco
 HDF5 = b"\x89HDF"  # first bytes of a file
 
 
-def print_panel(panel: str, quality: str) -> None:
+def print_panel(panel: str, selection: str) -> None:
     target = panel if panel == REPORT else f"panel PANEL={panel}"
-    print(f"panel {panel}, quality {quality}: make {target} {Selection.parse(quality).arguments}")
+    print(f"panel {panel}, quality {selection}: make {target} {Selection.parse(selection).arguments}")
 
 
 def print_command(origin: dict[str, Any], where: str = "") -> None:
@@ -45,16 +45,16 @@ def explain_result(path: Path) -> int:
     origin = load_provenance(path)
     program, words = origin["program"], origin["option_words"]
     panels = []
-    for quality in selections():
-        for run in runs_of(Plan(quality)).values():
+    for selection in selections():
+        for run in runs_of(Plan(selection)).values():
             if (run.program, run.options_text) == (program, words):
-                panels.append((run.panel, quality))
-    fresh = "fresh" if panels else "of no panel here"
+                panels.append((run.panel, selection))
+    state = "fresh" if panels else "of no panel here"
     if sources_changed(origin):
-        fresh = f"stale: sources of {program} have changed"
-    print(f"unmodified, {fresh}")
-    for panel, quality in panels:
-        print_panel(panel, quality)
+        state = f"stale: sources of {program} have changed"
+    print(f"unmodified, {state}")
+    for panel, selection in panels:
+        print_panel(panel, selection)
     print_command(origin)
     print(f"identity {result_identity(program, words, origin['source_hash'])}")
     print(f"compiled by {origin['compiler']} with {origin['libraries']}")
@@ -68,10 +68,10 @@ def explain_figure(path: Path) -> int:
             f"{path} has no panel metadata: it is no file of a panel or report, or another program rewrote it"
         )
         return 1
-    panel, quality, identity = line
-    plan, name = Plan(quality), record_name(panel, identity)
+    panel, selection, identity = line
+    plan, name = Plan(selection), record_name(panel, identity)
     known = next(
-        (path for folder in (FIGURES, FORMER) if (path := Path(folder, quality, name)).exists()), Path(name)
+        (path for folder in (FIGURES, FORMER) if (path := Path(folder, selection, name)).exists()), Path(name)
     )
     record = read_record(known)
     planned = plan.report if panel == REPORT else plan.panels.get(panel)
@@ -79,11 +79,13 @@ def explain_figure(path: Path) -> int:
     if not planned:
         fresh = "stale: there is no such panel"
     elif planned.identity != identity:
-        fresh = f"stale: {changed(planned, record['parents']) if record else 'of other sources or results'}"
+        fresh = (
+            f"stale: {differences(planned, record['parents']) if record else 'of other sources or results'}"
+        )
     digest, files = sha256(content), record.get("files", {})
     edited = bool(record) and digest not in (
         *files.values(),
-        _of_reduced(f"{FIGURES}/{quality}/{panel}", files),
+        _of_reduced(f"{FIGURES}/{selection}/{panel}", files),
     )
     state = "edited" if edited else "unmodified" if record else "not checked"
     unknown = (
@@ -91,9 +93,9 @@ def explain_figure(path: Path) -> int:
     )
     print(f"{state}, {fresh}{unknown * (not record and planned is not None)}")
     if planned:
-        print_panel(panel, quality)
+        print_panel(panel, selection)
     else:
-        print(f"panel {panel}, quality {quality}")
+        print(f"panel {panel}, quality {selection}")
     if not record:
         return 3
     own = ("workflow/figures/", "workflow/study/", "figures/", *SHARED)

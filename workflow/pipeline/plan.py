@@ -20,12 +20,13 @@ from workflow.pipeline.configuration import (
     Options,
     arguments,
     load_configuration,
+    merge_efforts,
     programs_of,
-    with_effort,
 )
 from workflow.pipeline.polynomial import evaluated
 from workflow.pipeline.selection import DEFAULT_QUALITY, Selection
 from workflow.pipeline.sources import is_sampled, source_hash
+from workflow.render.files import missing
 from workflow.render.record import (
     FORMATS,
     NUMBERS,
@@ -128,6 +129,11 @@ class Panel:
         """Empty if the files are not made."""
         return read_record(self.record_path)
 
+    def is_incomplete(self) -> bool:
+        """Whether a file of the panel, or one that it is made from, is missing. Raises ConfigurationError,
+        OSError."""
+        return bool(missing([*self.parents, *self.files]))
+
     @property
     def log(self) -> str:
         """Path of what its command prints."""
@@ -189,7 +195,10 @@ class Plan:
         return [panel for panel in self if not panel.study]
 
     @cached_property
-    def report(self) -> Panel:
+    def report(self) -> Panel | None:
+        """None without the study."""
+        if not STUDY.exists():
+            return None
         inputs = ["workflow/study", "workflow/pipeline", *[NUMBERS] * states_release(self.selection.name)]
         script = "workflow/study/report.py"
         return Panel(REPORT, self.selection.name, script, figures=tuple(self), inputs=tuple(inputs))
@@ -206,7 +215,7 @@ class Plan:
                 continue
             physics = panel.get("common", {}) | panel["series"][series]
             general = (default, of_panel) if is_sampled(program) else ()
-            effort = with_effort({}, *general, own.get(series, {}))
+            effort = merge_efforts({}, *general, own.get(series, {}))
             replaced += [f"{key} of {series}" for key in effort if key in physics]
             runs += self._runs(name, series, program, physics | effort)
         script = f"{SCRIPTS.get(file, 'workflow/figures')}/{panel.get('script', name)}.py"

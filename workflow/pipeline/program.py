@@ -49,11 +49,11 @@ def compile_programs() -> list[str]:
     def unbuilt() -> list[str]:
         return [name for name in programs() if not is_built(name)]
 
-    missing = unbuilt()
-    if not missing and "CXX" not in os.environ:
+    lacking = unbuilt()
+    if not lacking and "CXX" not in os.environ:
         return []
-    if missing:
-        number = f"{len(missing)} program{'s' * (len(missing) > 1)}"
+    if lacking:
+        number = f"{len(lacking)} program{'s' * (len(lacking) > 1)}"
         print(f"Compiling {number}; all take about a minute on two cores", flush=True)
     done = subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=False)
     failed = [f"cpp/observables/{name}.cpp" for name in unbuilt()] if done.returncode else []

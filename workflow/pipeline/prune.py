@@ -13,7 +13,7 @@ from pathlib import Path
 from workflow.lib.identity import IDENTITY, named_identity
 from workflow.pipeline.audit import tracked
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import FIGURES, Plan, runs_of
+from workflow.pipeline.plan import FIGURES, REPORT, Plan, runs_of
 from workflow.render.files import missing
 from workflow.render.record import read_identity_line
 
@@ -26,7 +26,7 @@ def obsolete(plan: Plan) -> Iterator[Path]:
     for file in Path(FIGURES, selection).glob("*.*"):
         panel = file.name.partition(".")[0]
         own = (panel, selection) == (read_identity_line(file.read_bytes()) or ())[:2]
-        if panel not in (*plan.panels, plan.report.name) and (own or named_identity(file)):
+        if panel not in (*plan.panels, REPORT) and (own or named_identity(file)):
             yield file
     planned = {path.removesuffix(".h5") for path in runs_of(plan)}
     for path in Path("data", selection).glob("*/*"):

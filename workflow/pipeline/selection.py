@@ -10,8 +10,8 @@ from workflow.pipeline.configuration import (
     PANELS,
     ConfigurationError,
     Options,
+    merge_efforts,
     refuse_rounding_errors,
-    with_effort,
 )
 from workflow.pipeline.polynomial import NUMBER
 
@@ -26,10 +26,8 @@ EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of
 
 @dataclass(frozen=True)
 class Selection:
-    """A quality with the effort of the command line, by the name of its folders of data and figures:
-    `standard`, or `standard_seed=7_replicas=200`."""
+    """A quality with the effort of the command line."""
 
-    name: str
     quality: str
     seed: int | None = None
     replicas: int | None = None
@@ -56,20 +54,30 @@ class Selection:
             raise ConfigurationError(
                 "ERROR and REPLICAS both determine the number of replicas; give one of them"
             )
-        return cls(name, base, **values)
+        return cls(base, **values)
+
+    @property
+    def effort(self) -> dict[str, float]:
+        """What replaces the effort of the quality."""
+        return {key: value for key in EFFORTS if (value := getattr(self, key)) is not None}
+
+    @property
+    def name(self) -> str:
+        """Name of its folders of data and figures: `standard`, or `standard_seed=7_replicas=200`."""
+        return "_".join([self.quality, *(f"{key}={value}" for key, value in self.effort.items())])
 
     @property
     def arguments(self) -> str:
         """Arguments of make that select this quality and effort."""
-        given = {"QUALITY": self.quality, **{key.upper(): getattr(self, key) for key in EFFORTS}}
-        return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
+        return " ".join(
+            [f"QUALITY={self.quality}", *(f"{key.upper()}={value}" for key, value in self.effort.items())]
+        )
 
     def with_effort(self, names: str, options: Options, scale: float | None) -> Options:
         """Options of a sampled run with its effort as options of the program, and its seed. names: of panel
         and run, or of the panel alone, from which the seed follows; scale: reference value of the error
         where the target may be 0."""
-        given = {key: value for key in ("replicas", "error") if (value := getattr(self, key)) is not None}
-        options = with_effort(options, given)
+        options = merge_efforts(options, {key: value for key, value in self.effort.items() if key != "seed"})
         if "error" in options:
             options["target-error"] = options.pop("error")
             options |= {} if scale is None else {"target-scale": scale}

@@ -7,6 +7,7 @@ reason on stderr.
 import json
 import os
 import sys
+import traceback
 from collections.abc import Iterable, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -21,6 +22,7 @@ from workflow.lib.figure import Plot, TheoryError
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, cost_file, load
 from workflow.lib.units import UnitsError
+from workflow.render.files import format_os_error
 from workflow.render.record import SHARED, panel_identity, sources_of_panel
 from workflow.render.save import Parents, Text, save
 
@@ -107,10 +109,24 @@ def _open_hdf5(name: bytes, *arguments: Any, original: Any = h5py.h5f.open, **na
     return original(name, *arguments, **named)
 
 
-if __name__ == "__main__":
+def main(job: str) -> int:
     try:
-        render(**json.loads(sys.argv[1]))
-    except (FormatError, OSError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError) as error:
-        sys.exit(str(error))
-    except KeyboardInterrupt:
-        sys.exit(130)
+        render(**json.loads(job))
+    except OSError as error:
+        print(format_os_error(error), file=sys.stderr)
+    except (FormatError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError) as error:
+        print(error, file=sys.stderr)
+    except Exception as error:  # a mistake in the script; the last line is printed by make
+        traceback.print_exc()
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        print(
+            f"{os.path.relpath(last.filename)}:{last.lineno}: {type(error).__name__}: {error}",
+            file=sys.stderr,
+        )
+    else:
+        return 0
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

@@ -83,17 +83,26 @@ def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], reco
     record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
     text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
     path = stem.with_name(record_name(stem.name, identity))
+    files = {stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()}
+    write_atomically(files | {path: text.encode()})
     for former in (sibling for sibling in siblings(path) if sibling != path):
         archived = ROOT / FORMER / stem.parent.name / former.name
         archived.parent.mkdir(parents=True, exist_ok=True)
         former.replace(archived)
-    files = {stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()}
-    write_atomically(files | {path: text.encode()})
 
 
 def commit() -> str:
     """Commit of the repository, with -dirty if tracked files have changed; empty without a repository."""
-    command = ["git", "--git-dir=.git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]
+    command = [
+        "git",
+        "--no-optional-locks",
+        "--git-dir=.git",
+        "describe",
+        "--always",
+        "--dirty",
+        "--abbrev=40",
+        "--exclude=*",
+    ]
     try:
         return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout.strip()
     except OSError:  # no git

@@ -60,10 +60,12 @@ def label(row: Mapping[str, str]) -> str:
 
 def read_claims(root: Path) -> list[dict[str, str]]:
     """Rows of the table of claims. Raises FormatError, OSError."""
+    where = "the table"
     try:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
         for row in rows:
+            where = f"row {row['numbers']}, {row['kind']}"
             Band.parse(row["band"])
             function_of(row)
             if row["kind"] not in KINDS:
@@ -73,7 +75,7 @@ def read_claims(root: Path) -> list[dict[str, str]]:
                     f"'{label(row)}' has more than {MOST_LETTERS} letters: write it shorter in `short`"
                 )
     except (ValueError, KeyError, AttributeError) as error:  # errors of pandas are ValueErrors
-        raise FormatError(f"{CLAIMS_FILE}: {error}") from error
+        raise FormatError(f"{CLAIMS_FILE}: {where}: {error}") from error
     return rows
 
 

@@ -179,6 +179,7 @@ def write(selection: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     judgements = judge_all(results, root)
     if not gallery:
         report, name = plan.report, plan.selection.name
+        assert report
         line = f"<!-- {identity_line(report.name, name, report.identity)} -->\n".encode()
         page = rendered(judgements, plan, root, release=False) + line
         record: dict[str, Any] = {"panel": report.name, "quality": name, "identity": report.identity}
