@@ -239,7 +239,7 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
     soon(lambda: [*folder.glob("*.log")] or running.poll() is not None)
     (project.folder / PAPER).write_text(planned)
     if number == signal.SIGINT:
-        assert "Another command is making products" in project.entry("figures", status=1)
+        assert "another command of make or Snakemake" in project.entry("figures", status=1)
         assert project.stale() == set()  # a dry run needs no lock
     else:
         time.sleep(1)

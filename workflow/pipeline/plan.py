@@ -197,7 +197,7 @@ class Plan:
     @cached_property
     def report(self) -> Panel | None:
         """None without the study."""
-        if not STUDY.exists():
+        if not STUDY.parent.exists():
             return None
         inputs = ["workflow/study", "workflow/pipeline", *[NUMBERS] * states_release(self.selection.name)]
         script = "workflow/study/report.py"
