@@ -77,13 +77,13 @@ std::size_t number_of_sites(const KineticProblem& problem, std::size_t order) {
 
 }  // namespace
 
-Collision::Collision(double sigma, std::size_t order) : sigma_(sigma), unit_(order, 1) {
+CollisionOperator::CollisionOperator(double sigma, std::size_t order) : sigma_(sigma), unit_(order, 1) {
   const auto size = static_cast<double>(order);
   for (std::size_t n = 1; n < order; ++n)
     unit_[n] = unit_[n - 1] * std::sqrt(size / (std::numbers::e * static_cast<double>(n)));
 }
 
-Vector Collision::gain(std::span<const double> f) const {
+Vector CollisionOperator::gain(std::span<const double> f) const {
   constexpr double negligible = 1e-17;  // sigma^j: the other factors differ from 1 by less than rounding
   Vector series(f.begin(), f.end());
   for (std::size_t n = 0; n < series.size(); ++n) series[n] *= unit_[n];
@@ -297,7 +297,7 @@ std::size_t KineticSolution::modes() const {
 /// depend on higher ones.
 Matrix KineticSolution::linearised(const Matrix& f) const {
   const std::size_t count = x_.size(), modes = this->modes();
-  const Collision low(problem_.sigma, modes);
+  const CollisionOperator low(problem_.sigma, modes);
   Matrix result(count * modes, count * modes);
   for (std::size_t j = 0; j < count; ++j) {
     Vector shifted(f.row(j).begin(), f.row(j).begin() + static_cast<std::ptrdiff_t>(modes));

@@ -46,9 +46,9 @@ struct ConvergenceError : std::runtime_error {
 ///   G(z) = f(-sigma z) prod_{j>=0} f(c^2 sigma^j z)/J,   J = f_0.
 ///
 /// G_n depends on f_0, ..., f_n only; G_n = f_n for n = 0, 1, 2: number, momentum and energy [eq. 40].
-class Collision {
+class CollisionOperator {
  public:
-  Collision(double sigma, std::size_t order);
+  CollisionOperator(double sigma, std::size_t order);
   std::vector<double> gain(std::span<const double> f) const;  // G_n from f_n
 
  private:
@@ -120,7 +120,7 @@ class KineticSolution {
   double temperature_;  // T
   std::size_t order_;
   std::vector<double> x_, weight_;  // of sites: N scatterers, or Gauss-Legendre nodes
-  Collision collision_;
+  CollisionOperator collision_;
   Direction right_, left_;
   Matrix gain_;  // G_n at every site
   std::shared_ptr<const LuFactors> jacobian_;

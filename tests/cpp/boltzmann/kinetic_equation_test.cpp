@@ -186,10 +186,10 @@ TEST(KineticEquation, EquilibriumStays) {
 }
 
 // The derivative of G at a Maxwellian has the eigenvalues of eq. 42. Detected mistake: those of -sigma.
-TEST(Collision, DerivativeHasTheEigenvaluesOfHermiteFunctions) {
+TEST(CollisionOperator, DerivativeHasTheEigenvaluesOfHermiteFunctions) {
   constexpr std::size_t order = 9;
   for (const double sigma : {-0.7, 0.5}) {
-    const Collision collision(sigma, order);
+    const CollisionOperator collision(sigma, order);
     for (std::size_t n = 0; n < order; ++n) {
       constexpr double step = 1e-4;
       std::vector<double> more(order), less(order);
@@ -206,8 +206,8 @@ TEST(Collision, DerivativeHasTheEigenvaluesOfHermiteFunctions) {
 }
 
 // Number, momentum and energy, of any flux.
-TEST(Collision, Conserves) {
-  const std::vector<double> f{2, 0.7, -0.4, 0.3, 0.2}, gain = Collision(0.6, 5).gain(f);
+TEST(CollisionOperator, Conserves) {
+  const std::vector<double> f{2, 0.7, -0.4, 0.3, 0.2}, gain = CollisionOperator(0.6, 5).gain(f);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(gain[n], f[n], 1e-14);
   EXPECT_GT(std::abs(gain[3] - f[3]), 0.1);
 }
