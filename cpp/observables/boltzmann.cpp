@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -211,18 +210,28 @@ double difference(std::vector<double> a, const std::vector<double>& b) {
   return largest(a);
 }
 
-/// Quantities of a solution, with their differences from those of a coarser one as errors.
-Results results(const Parameters& parameters, const KineticSolution& fine, const KineticSolution& coarse) {
-  constexpr double rounding = 5e-14;  // relative to the scale of a quantity
-  const Profile profile(parameters, fine), before(parameters, coarse);
+/// Values of all quantities, in the order of the definitions.
+using Values = std::vector<std::vector<double>>;
+
+Values evaluate(const std::vector<Definition>& definitions, const Profile& profile) {
+  Values values;
+  for (const Definition& definition : definitions) values.push_back(definition.formula(profile));
+  return values;
+}
+
+/// The quantities at the last order. Their errors are the differences from those at the order before; a tenth
+/// of those at the order before that, if it is larger, as two solutions may agree by chance; and `rounding`.
+Results results(const std::vector<Definition>& definitions, const std::vector<Values>& orders,
+                double rounding) {
   Results results;
-  for (const auto& [what, formula, scale] : definitions(parameters)) {
-    const std::vector<double> values = formula(profile);
-    const double error = difference(values, formula(before)) +
-                         (rounding + fine.iteration_error()) * std::max(scale, largest(values));
+  for (std::size_t k = 0; k < definitions.size(); ++k) {
+    const std::vector<double>& values = orders.back()[k];
+    double error = difference(values, orders[orders.size() - 2][k]);
+    if (orders.size() > 2) error = std::max(error, 0.1 * difference(values, orders[orders.size() - 3][k]));
+    error += rounding * std::max(definitions[k].scale, largest(values));
     std::vector<double> errors;
     for (const double value : values) errors.push_back(std::isfinite(value) ? error : none);
-    results.push_back({what, values, errors});
+    results.push_back({definitions[k].what, values, errors});
   }
   return results;
 }
@@ -230,53 +239,47 @@ Results results(const Parameters& parameters, const KineticSolution& fine, const
 /// Largest error of F and its limits at p = 0, relative to the largest F, and of the currents. Currents may
 /// vanish: their errors are relative to the injected current over 1 + gamma if that is larger.
 double relative_error(const Parameters& parameters, const Results& results) {
-  const double top = largest(quantity_named(results, "flux_density").mean);
-  double error = 0;
-  for (const Definition& definition : definitions(parameters)) {
-    const Quantity& quantity = quantity_named(results, definition.what.name);
-    if (definition.scale > 0)
-      error = std::max(
-          error, quantity.standard_error[0] / std::max(std::abs(quantity.mean[0]),
-                                                       definition.scale / (1 + parameters.problem().gamma)));
-    else if (definition.what.name == "flux_density" || definition.what.name == "jump")
-      error = std::max(error, largest(quantity.standard_error) / top);
-  }
+  const auto error_of = [&](const char* name) {
+    return largest(quantity_named(results, name).standard_error);
+  };
+  double error = std::max(error_of("flux_density"), error_of("jump")) /
+                 largest(quantity_named(results, "flux_density").mean);
+  for (const Definition& current : definitions(parameters))
+    if (current.scale > 0)
+      error = std::max(error, error_of(current.what.name.c_str()) /
+                                  std::max(largest(quantity_named(results, current.what.name).mean),
+                                           current.scale / (1 + parameters.problem().gamma)));
   return error;
 }
 
-/// Raises the order until the target is reached, by factors of 3/2 and 4/3 in turn: even numbers, as the
-/// errors at even and odd ones differ.
+/// Raises the order by factors of 3/2 until the target is reached. Orders are even, as the errors at even and
+/// at odd ones differ.
 Outcome solve(const Parameters& parameters, Progress& progress) try {
-  constexpr std::size_t lowest = 8, highest = 512;
-  const KineticProblem problem = parameters.problem();
-  const double target = parameters.target_error;
-  auto coarse = std::make_unique<KineticSolution>(problem, lowest);
-  Outcome outcome{.events = static_cast<std::uint64_t>(coarse->evaluations()),
-                  .target_quantity = "flux and currents",
-                  .target_error = target};
-  for (std::size_t order = lowest; order < highest;) {
-    order = std::has_single_bit(order) ? order / 2 * 3 : order / 3 * 4;
-    std::unique_ptr<KineticSolution> fine;
-    try {
-      fine = std::make_unique<KineticSolution>(problem, order, coarse.get());
-    } catch (const ConvergenceError&) {
-      if (outcome.results.empty()) throw;
-      break;  // the results of the last order have their errors
-    }
-    outcome.events += static_cast<std::uint64_t>(fine->evaluations());
-    outcome.results = results(parameters, *fine, *coarse);
-    outcome.achieved_error = relative_error(parameters, outcome.results);
-    if (outcome.achieved_error <= target) {
+  constexpr std::size_t lowest = 8, highest = 700;
+  constexpr double rounding = 5e-14;
+  const std::vector<Definition> quantities = definitions(parameters);
+  std::vector<Values> orders;
+  std::unique_ptr<KineticSolution> solution;
+  Outcome outcome{.target_quantity = "flux and currents", .target_error = parameters.target_error};
+  for (std::size_t order = lowest; order < highest; order = 3 * order / 4 * 2) try {
+      solution = std::make_unique<KineticSolution>(parameters.problem(), order, solution.get());
+      outcome.events += static_cast<std::uint64_t>(solution->evaluations());
+      orders.push_back(evaluate(quantities, Profile(parameters, *solution)));
+      if (orders.size() < 2) continue;
+      outcome.results = results(quantities, orders, rounding + solution->iteration_error());
+      outcome.achieved_error = relative_error(parameters, outcome.results);
+      if (outcome.achieved_error > parameters.target_error) continue;
       outcome.convergence = Convergence::reached;
       return outcome;
+    } catch (const ConvergenceError&) {
+      if (outcome.results.empty()) throw;
+      break;  // the results of the last order state their errors
     }
-    coarse = std::move(fine);
-  }
-  progress.say(fmt::format(
-      "target not reached: F and the currents are known to {:.1e}, not to {:.1e}, because the series in "
-      "the momentum converges slowly; choose a larger --target-error, baths that differ "
-      "less, or sigma farther from -1, 0 and 1",
-      outcome.achieved_error, target));
+  progress.say(
+      fmt::format("target not reached: F and the currents are known to {:.1e}, not to {:.1e}, because their "
+                  "series converge slowly; choose a larger --target-error, baths that differ less, or sigma "
+                  "farther from -1, 0 and 1",
+                  outcome.achieved_error, parameters.target_error));
   return outcome;
 } catch (const ConvergenceError& error) {
   throw NumericalError(error.what());

@@ -69,7 +69,7 @@ std::vector<std::string> remarks_on_stationarity(const Results& results) {
     return {
         "not tested whether stationary: too few replicas or injections; choose more --replicas, or a longer "
         "--observation-time"};
-  if (stationary == 1) return {};
+  if (stationary == 1) return {};  // 0, 1 or NaN
   return {
       fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles changes by "
                   "{:+.2g} of those injected; choose a longer --relaxation-time",
