@@ -75,6 +75,14 @@ std::size_t number_of_sites(const KineticProblem& problem, std::size_t order) {
   return static_cast<std::size_t>(std::ceil((3 + 2 * std::sqrt(problem.gamma)) * refinement));
 }
 
+/// Largest magnitude; NaN if one value is NaN.
+double largest(const Matrix& matrix) {
+  double result = 0;
+  for (std::size_t i = 0; i < matrix.rows(); ++i)
+    for (const double value : matrix.row(i)) result = std::abs(value) <= result ? result : std::abs(value);
+  return result;
+}
+
 }  // namespace
 
 CollisionOperator::CollisionOperator(double sigma, std::size_t order) : sigma_(sigma), unit_(order, 1) {
@@ -137,9 +145,9 @@ double HalfFlux::moment(std::size_t n) const {
   const Vector m = hermite_moments(5);
   const double square = std::numbers::sqrt2 * m[2] + m[0];  // u^2 = sqrt(2) h_2 + 1
   const double fourth = std::sqrt(24.) * m[4] + 6 * square - 3 * m[0];
-  const double moments[] = {m[0], std::sqrt(temperature) * m[1], temperature * square, 0,
-                            temperature * temperature * fourth};
-  return moments[n];
+  if (n == 0) return m[0];
+  if (n == 1) return std::sqrt(temperature) * m[1];
+  return n == 2 ? temperature * square : temperature * temperature * fourth;
 }
 
 double Flux::particle_temperature() const {
@@ -175,6 +183,8 @@ KineticSolution::KineticSolution(const KineticProblem& problem, std::size_t orde
   prepare(left_);
   if (guess && guess->x_.size() == x_.size() && guess->modes() == modes()) jacobian_ = guess->jacobian_;
   iterate(first_guess(guess));
+  set_net_gain(right_);
+  set_net_gain(left_);
 }
 
 /// With the loss, F_i = F_bath + gamma sum_j passed_ij (G_j - F_j) has the solution (1 + gamma passed)^-1
@@ -322,52 +332,56 @@ Matrix KineticSolution::linearised(const Matrix& f) const {
   return result;
 }
 
+/// Newton's step of the lowest modes and the fixed-point step of the others.
+Matrix KineticSolution::step(const Matrix& f, bool renew_jacobian) {
+  const std::size_t count = f.rows(), modes = this->modes();
+  for (std::size_t i = 0; i < count; ++i) std::ranges::copy(collision_.gain(f.row(i)), gain_.row(i).begin());
+  ++evaluations_;
+  Matrix step = image();
+  Vector low(count * modes);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t n = 0; n < order_; ++n) step(i, n) -= f(i, n);
+    std::ranges::copy(step.row(i).first(modes), &low[i * modes]);
+  }
+  if (renew_jacobian) jacobian_ = std::make_shared<LuFactors>(linearised(f));
+  jacobian_->solve(low);
+  for (std::size_t i = 0; i < count; ++i) std::copy_n(&low[i * modes], modes, step.row(i).begin());
+  return step;
+}
+
 void KineticSolution::iterate(Matrix f) {
   constexpr double rounding = 1e-13;    // step that rounding permits
   constexpr double acceptable = 1e-10;  // step that suffices if steps no longer become smaller
   constexpr double frozen = 1e-2;       // largest step after which the Jacobian is kept
   constexpr double longest = 0.1;       // step that is taken at most
   constexpr int limit = 400;
-  const std::size_t count = f.rows(), modes = this->modes();
   const double rates = problem_.left.rate + problem_.right.rate;
-  Vector low(count * modes);
   for (double last = jacobian_ ? 0 : std::numeric_limits<double>::infinity();;) {
-    for (std::size_t i = 0; i < count; ++i)
-      std::ranges::copy(collision_.gain(f.row(i)), gain_.row(i).begin());
-    ++evaluations_;
-    Matrix step = image();
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t n = 0; n < order_; ++n) step(i, n) -= f(i, n);
-      std::ranges::copy(step.row(i).first(modes), &low[i * modes]);
-    }
-    if (last > frozen) jacobian_ = std::make_shared<LuFactors>(linearised(f));
-    jacobian_->solve(low);
-    double size = 0;  // largest step, relative to the rates
-    for (std::size_t i = 0; i < count; ++i) {
-      std::copy_n(&low[i * modes], modes, step.row(i).begin());
-      for (const double each : step.row(i))  // NaN if one of them is NaN
-        size = std::abs(each) <= size * rates ? size : std::abs(each) / rates;
-    }
+    const Matrix change = step(f, last > frozen);
+    const double size = largest(change) / rates;
     // Of a geometric series of steps; where rounding makes them equal, of 100 more of them.
     iteration_error_ = size / (1 - std::min(size / last, 0.99));
     const bool at_rest = size < rounding || (size < acceptable && size > 0.9 * last);
-    if (at_rest || (evaluations_ == limit && iteration_error_ < 0.1)) break;
+    if (at_rest || (evaluations_ == limit && iteration_error_ < 0.1)) return;
     if (!(size < 1e6) || evaluations_ == limit)
       throw ConvergenceError(
           "Newton's iteration for the Boltzmann equation did not converge, because its steps do not become "
           "smaller; choose baths that differ less, a smaller gamma, or sigma farther from -1, 0 and 1");
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t n = 0; n < order_; ++n) f(i, n) += step(i, n) * std::min(1., longest / size);
+    for (std::size_t i = 0; i < f.rows(); ++i)
+      for (std::size_t n = 0; n < order_; ++n) f(i, n) += change(i, n) * std::min(1., longest / size);
     last = size;
   }
-  for (Direction* each : {&right_, &left_}) {
-    each->net_gain = Matrix(count, order_);
-    add_product(each->gain, gain_, each->net_gain);
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t m = 0; m < order_; ++m)
-        each->net_gain(i, m) =
-            problem_.gamma * (gain_(i, m) - each->net_gain(i, m)) * (each->sign > 0 ? 1 : parity(m));
-  }
+}
+
+/// gamma (G - F) at the sites, as series in |u|.
+void KineticSolution::set_net_gain(Direction& direction) const {
+  direction.net_gain = Matrix(gain_.rows(), order_);
+  add_product(direction.gain, gain_, direction.net_gain);
+  for (std::size_t i = 0; i < gain_.rows(); ++i)
+    for (std::size_t m = 0; m < order_; ++m) {
+      const double net = problem_.gamma * (gain_(i, m) - direction.net_gain(i, m));
+      direction.net_gain(i, m) = direction.sign > 0 ? net : parity(m) * net;
+    }
 }
 
 }  // namespace lorentz

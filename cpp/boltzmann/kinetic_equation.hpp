@@ -114,7 +114,9 @@ class KineticSolution {
   Matrix first_guess(const KineticSolution* guess) const;
   Matrix image() const;
   Matrix linearised(const Matrix& f) const;
+  Matrix step(const Matrix& f, bool renew_jacobian);
   void iterate(Matrix f);
+  void set_net_gain(Direction& direction) const;
 
   KineticProblem problem_;
   double temperature_;  // T

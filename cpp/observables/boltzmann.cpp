@@ -105,7 +105,7 @@ struct Definition {
 
 /// Formula of a quantity along an axis of positions.
 Definition::Formula at_every(std::vector<Flux> Profile::* positions,
-                             std::function<std::vector<double>(const Flux&)> formula) {
+                             const std::function<std::vector<double>(const Flux&)>& formula) {
   return [=](const Profile& profile) {
     std::vector<double> all;
     for (const Flux& flux : profile.*positions) {

@@ -3,6 +3,7 @@
 #include <gsl/gsl_multifit_nlinear.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,7 @@ double cubic(const gsl_vector* c, double u) {
          u * (gsl_vector_get(c, 1) + u * (gsl_vector_get(c, 2) + u * gsl_vector_get(c, 3)));
 }
 
+// NOLINTBEGIN(misc-const-correctness): the types are those that GSL calls
 /// Residuals sqrt(weight) (exp(cubic) - y) of every cell.
 int residuals(const gsl_vector* c, void* data, gsl_vector* result) {
   const Cells& cells = *static_cast<const Cells*>(data);
@@ -53,6 +55,7 @@ int jacobian(const gsl_vector* c, void* data, gsl_matrix* result) {
   }
   return GSL_SUCCESS;
 }
+// NOLINTEND(misc-const-correctness)
 
 }  // namespace
 
@@ -107,8 +110,8 @@ Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window) {
   const gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
   const GslObject<gsl_multifit_nlinear_workspace, gsl_multifit_nlinear_alloc, gsl_multifit_nlinear_free>
   solver(gsl_multifit_nlinear_trust, &parameters, cells.u.size(), std::size_t{4});
-  double start[] = {0, 0, std::log(part_of_maximum), 0};
-  const gsl_vector_view first = gsl_vector_view_array(start, 4);
+  std::array<double, 4> start{0, 0, std::log(part_of_maximum), 0};
+  const gsl_vector_view first = gsl_vector_view_array(start.data(), start.size());
   gsl_multifit_nlinear_init(&first.vector, &problem, solver.get());
   int reason = 0;
   gsl_multifit_nlinear_driver(limit, tolerance, 0, 0, nullptr, nullptr, &reason, solver.get());
