@@ -354,7 +354,7 @@ void KineticSolution::iterate(Matrix f) {
   constexpr double acceptable = 1e-10;  // step that suffices if steps no longer become smaller
   constexpr double frozen = 1e-2;       // largest step after which the Jacobian is kept
   constexpr double longest = 0.1;       // step that is taken at most
-  constexpr int limit = 400;
+  constexpr int limit = 200;
   const double rates = problem_.left.rate + problem_.right.rate;
   for (double last = jacobian_ ? 0 : std::numeric_limits<double>::infinity();;) {
     const Matrix change = step(f, last > frozen);
