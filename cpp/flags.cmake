@@ -9,10 +9,7 @@ foreach(name exp exp2 exp10 expm1 log log2 log10 log1p sin cos sincos tan asin a
              cbrt erf erfc pow hypot)
   list(APPEND NUMERIC_FLAGS -fno-builtin-${name})
 endforeach()
-# Philox does not need intrinsics. Eigen's order of summation would depend on the vector instructions of the processor and, in blocks
-# of matrix products, on the sizes of its caches.
-set(NUMERIC_DEFINITIONS R123_USE_SSE=0 EIGEN_NO_DEBUG EIGEN_DONT_VECTORIZE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768
-    EIGEN_DEFAULT_L2_CACHE_SIZE=262144 EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
+set(NUMERIC_DEFINITIONS R123_USE_SSE=0)  # Philox does not need intrinsics
 # Lower levels for libraries without an event loop, which take longer to compile than they save. No level changes a result.
 set(SOLVER_LEVEL -O2)   # statistics and the kinetic equation, which solve once
 set(PROGRAM_LEVEL -O1)  # options, files, checkpoints

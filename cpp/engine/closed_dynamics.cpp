@@ -58,6 +58,7 @@ Invariants ClosedDynamics::invariants() const {
     sum.momentum += root_mass * scatterer;
     sum.momentum_scale += root_mass * std::abs(scatterer);
   }
+  // At exactly 1 the mass of a scatterer is infinite.
   if (!rule_properties(chain_.rule.name).conserves_momentum || chain_.sigma == 1) sum.momentum = none;
   return sum;
 }

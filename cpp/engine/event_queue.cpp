@@ -69,6 +69,7 @@ std::uint32_t EventQueue::take_first_of(std::uint32_t& bucket, double until) {
   std::uint32_t* first = &bucket;
   for (std::uint32_t* link = &lists_.next(*first); *link != none; link = &lists_.next(*link)) {
     const Flight &a = lists_[*link], &b = lists_[*first];
+    // Only bitwise equal times are simultaneous; the order must not depend on a tolerance.
     if (a.time < b.time || (a.time == b.time && a.particle < b.particle)) first = link;
   }
   if (!(lists_[*first].time < until)) return none;

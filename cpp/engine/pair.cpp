@@ -15,6 +15,7 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
   const std::vector<double> other = masses(rule_).scaled(perturbed.scatterers);
   for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
     scatterers_.push_back({one[cell], other[cell]});
+    // Copies have equal bits; any difference, however small, makes two trajectories.
     if (share && plain.scatterers[cell] == perturbed.scatterers[cell]) continue;
     scatterer_diverged_[cell] = 1;
     diverged_cells_.push_back(cell);

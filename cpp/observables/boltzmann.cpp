@@ -14,15 +14,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "boltzmann/fields.hpp"
-#include "boltzmann/moments.hpp"
-#include "boltzmann/refinement.hpp"
-#include "model/reservoir.hpp"
+#include "boltzmann/kinetic_equation.hpp"
 #include "program/program.hpp"
 #include "sampling/chain_parameters.hpp"
 #include "sampling/momentum_bins.hpp"
@@ -30,8 +29,8 @@
 namespace {
 
 using namespace lorentz;
-using Eigen::Index;
-using Eigen::VectorXd;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Defaults: figure 3 of the paper.
 struct Parameters {
@@ -41,56 +40,25 @@ struct Parameters {
   Reservoir left = default_left, right = default_right;
   std::vector<double> positions{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
   MomentumBinParameters bins;
-  double target_error = 1e-10;
-  std::uint32_t coarsening = 0;
+  double target_error = 1e-6;
 
-  KineticProblem problem() const;
-  FieldGrid grid() const;  // of the output: --positions, or the bonds and scatterers of a chain
-};
-
-KineticProblem Parameters::problem() const {
-  KineticProblem problem;
-  problem.sigma = sigma;
-  problem.gamma = gamma.value_or(cells.value_or(0));
-  problem.left = left;
-  problem.right = right;
-  problem.cells = static_cast<int>(cells.value_or(0));
-  return problem;
-}
-
-FieldGrid Parameters::grid() const {
-  const Bins p = bins.bins();
-  const std::vector<double> middles = p.middles();
-  const auto half = static_cast<Index>(p.count() / 2);
-  FieldGrid grid{.crossings = VectorXd::Map(positions.data(), static_cast<Index>(positions.size())),
-                 .scatterers = {},
-                 .edges = VectorXd::LinSpaced(half + 1, 0, p.edge(p.count())),
-                 .middles = VectorXd::Map(middles.data() + half, half),
-                 .bin_width = p.width(),
-                 .root_mass = std::sqrt((1 + sigma) / (1 - sigma))};
-  grid.scatterers = grid.crossings;
-  if (cells) {
-    const Index sites = *cells;
-    grid.crossings = VectorXd::LinSpaced(sites + 1, 0, 1);
-    grid.scatterers = 0.5 * (grid.crossings.head(sites) + grid.crossings.tail(sites));
+  KineticProblem problem() const {
+    return {sigma, gamma.value_or(cells.value_or(0)), left, right, cells.value_or(0)};
   }
-  return grid;
-}
+};
 
 void declare(Options& options, Parameters& parameters) {
   options.real("--sigma", parameters.sigma, {-0.99, 0.99}, "1", "Mass ratio (M-m)/(M+m)");
-  options.real_or_word("--gamma", parameters.gamma, {0, 100}, "N", "1",
+  options.real_or_word("--gamma", parameters.gamma, {0, 500}, "N", "1",
                        "Mean number of scatterings on the way through; N: one at each of --cells");
-  options.integer_or_word("--cells", parameters.cells, {1, 100}, "continuum",
+  options.integer_or_word("--cells", parameters.cells, {1, 500}, "continuum",
                           "Number of scatterers of a mean-field chain");
   declare(options, parameters.left, parameters.right);
   options.ascending_list("--positions", parameters.positions, {0, 1}, "1",
                          "Positions of the continuum's output, over the length of the chain");
   declare(options, parameters.bins);
   options.real("--target-error", parameters.target_error, non_negative, "1",
-               "Relative error of the currents at which the resolution suffices");
-  options.integer("--coarsening", parameters.coarsening, {0, 4},
-                  "Levels below the usual one at which the refinement begins");
+               "Error of F relative to its maximum, and of the currents, at which the order suffices");
 }
 
 /// Throws UsageError if options that are valid one by one exclude each other.
@@ -110,120 +78,209 @@ void validate(const Parameters& parameters, bool positions_given) {
         "--nu-left and --nu-right are both 0: there are no particles. Choose one greater than 0.");
 }
 
-/// Quantity with its formula.
-struct Definition {
-  Description what;
-  std::function<std::vector<double>(const KineticFields&)> formula;
+/// Flux at the positions of the output.
+struct Profile {
+  std::vector<Flux> crossings, scatterers;
+
+  Profile(const Parameters& parameters, const KineticSolution& solution) {
+    if (!parameters.cells) {
+      for (const double x : parameters.positions) crossings.push_back(solution.at(x));
+      scatterers = crossings;
+      return;
+    }
+    for (std::size_t bond = 0; bond <= *parameters.cells; ++bond) crossings.push_back(solution.at_bond(bond));
+    for (std::size_t site = 0; site < *parameters.cells; ++site)
+      scatterers.push_back(solution.at_scatterer(site));
+  }
 };
 
-std::vector<Definition> definitions(const Parameters& parameters) {
-  const FieldGrid grid = parameters.grid();
-  const auto values = [](const VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
-  const Axis x{"x", "1", "Position over the length of the chain; bonds of a chain of cells",
-               values(grid.crossings)};
-  const Axis site{"x", "1", "Position over the length of the chain; scatterers of a chain of cells",
-                  values(grid.scatterers)};
-  const Axis momentum = momentum_axis(parameters.bins.bins());
-  Axis scatterer_momentum{"momentum", "momentum", "P, the particle's times sqrt(M)", momentum.values};
-  for (double& value : scatterer_momentum.values) value *= grid.root_mass;
-  const Axis half{"half", "1", "Sign of p", {-1, 1}};
-  const auto array = [](auto member) {
-    return [member](const KineticFields& fields) {
-      const auto& matrix = fields.*member;
-      return std::vector<double>(matrix.data(), matrix.data() + matrix.size());
-    };
+/// Quantity with its formula, and the scale of its rounding error: its largest value, but for currents, which
+/// may vanish, what both baths inject.
+struct Definition {
+  using Formula = std::function<std::vector<double>(const Profile&)>;
+  Description what;
+  Formula formula;
+  double scale = 0;
+};
+
+/// Formula of a quantity along an axis of positions.
+Definition::Formula at_every(std::vector<Flux> Profile::* positions,
+                             const std::function<std::vector<double>(const Flux&)>& formula) {
+  return [=](const Profile& profile) {
+    std::vector<double> all;
+    for (const Flux& flux : profile.*positions) {
+      const std::vector<double> values = formula(flux);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
   };
-  const auto number = [](double KineticFields::* member) {
-    return [member](const KineticFields& fields) { return std::vector{fields.*member}; };
-  };
-  using F = KineticFields;
-  return {
-      {{"flux", "1/(time momentum)", "F(p, x), mean over a bin of p", {x, momentum}}, array(&F::flux)},
-      {{"flux_density", "1/(time momentum)", "F(p, x)", {x, momentum}}, array(&F::flux_density)},
-      {{"scatterer_density", "1/momentum", "g(P, x), probability density", {site, scatterer_momentum}},
-       array(&F::scatterer_density)},
-      {{"particle_current", "1/time", "Particles to the right minus to the left"},
-       number(&F::particle_current)},
-      {{"energy_current", "energy/time", "Energy to the right minus to the left"},
-       number(&F::energy_current)},
-      {{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1); NaN without --cells"},
-       number(&F::conductivity)},
-      {{"current_spread", "1", "Largest deviation of a current over x, relative to what the baths inject"},
-       number(&F::current_spread)},
-      {{"temperature_scatterer", "temperature", "<P^2>/M", {site}}, array(&F::scatterer_temperature)},
-      {{"temperature_particle", "temperature", "<p^2> over the arrivals at a scatterer", {site}},
-       array(&F::particle_temperature)},
-      {{"rate_right", "1/time", "Crossings to the right", {x}}, array(&F::rate_right)},
-      {{"rate_left", "1/time", "Crossings to the left", {x}}, array(&F::rate_left)},
-      {{"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}}, array(&F::jump)},
-      {{"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}},
-       array(&F::kurtosis)}};
 }
 
-const Description momentum_points{"momentum_points", "1", "Points in momentum, both halves together"};
+/// -J_U N/(T_N - T_1) [eq. 28]; NaN in the continuum and without a difference of temperatures.
+double conductivity(const Parameters& parameters, const Profile& profile) {
+  const double first = profile.scatterers.front().scatterer_temperature(parameters.sigma),
+               rise = profile.scatterers.back().scatterer_temperature(parameters.sigma) - first;
+  if (!parameters.cells || !(std::abs(rise) > 1e-10 * first)) return none;
+  return -profile.crossings.front().energy_current() * *parameters.cells / rise;
+}
+
+std::vector<Definition> definitions(const Parameters& parameters) {
+  const Bins bins = parameters.bins.bins();
+  const double sigma = parameters.sigma, particles = parameters.left.rate + parameters.right.rate,
+               energy = parameters.left.rate * parameters.left.mean_energy() +
+                        parameters.right.rate * parameters.right.mean_energy();
+  Axis x{"x", "1", "Position over the length of the chain; bonds of a chain of cells", parameters.positions};
+  Axis site{"x", "1", "Position over the length of the chain; scatterers of a chain of cells",
+            parameters.positions};
+  if (parameters.cells) {
+    x.values.clear(), site.values.clear();
+    for (std::uint32_t k = 0; k <= *parameters.cells; ++k)
+      x.values.push_back(k / static_cast<double>(*parameters.cells));
+    for (std::uint32_t k = 0; k < *parameters.cells; ++k)
+      site.values.push_back((k + 0.5) / *parameters.cells);
+  }
+  const Axis momentum = momentum_axis(bins);
+  const Axis half{"half", "1", "Sign of p", {-1, 1}};
+  const auto mean_flux = [=](const Flux& flux) {
+    std::vector<double> values;
+    for (std::size_t bin = 0; bin < bins.count(); ++bin) {
+      const double low = bins.edge(bin), high = bins.edge(bin + 1);
+      values.push_back((low < 0 ? flux.left.integral(-low) - flux.left.integral(-high)
+                                : flux.right.integral(high) - flux.right.integral(low)) /
+                       bins.width());
+    }
+    return values;
+  };
+  const auto density = [=](const Flux& flux) {
+    std::vector<double> values;
+    for (const double p : momentum.values)
+      values.push_back(p < 0 ? flux.left.density(-p) : flux.right.density(p));
+    return values;
+  };
+  const auto kurtosis = [](const Flux& flux) {
+    std::vector<double> values;
+    for (const HalfFlux* side : {&flux.left, &flux.right}) {
+      const double value = side->moment(4) * side->moment(0) / (side->moment(2) * side->moment(2));
+      values.push_back(std::isfinite(value) ? value : none);
+    }
+    return values;
+  };
+  const auto first = [](auto number) {
+    return [=](const Profile& profile) { return std::vector{number(profile.crossings.front())}; };
+  };
+  const auto crossings = &Profile::crossings, scatterers = &Profile::scatterers;
+  return {{{"flux", "1/(time momentum)", "F(p, x), mean over a bin of p", {x, momentum}},
+           at_every(crossings, mean_flux)},
+          {{"flux_density", "1/(time momentum)", "F(p, x)", {x, momentum}}, at_every(crossings, density)},
+          {{"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}},
+           at_every(crossings, [](const Flux& flux) { return std::vector{flux.jump()}; })},
+          {{"particle_current", "1/time", "Particles to the right minus to the left"},
+           first([](const Flux& flux) { return flux.particle_current(); }),
+           particles},
+          {{"energy_current", "energy/time", "Energy to the right minus to the left"},
+           first([](const Flux& flux) { return flux.energy_current(); }),
+           energy},
+          {{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1); NaN without --cells"},
+           [=](const Profile& profile) { return std::vector{conductivity(parameters, profile)}; }},
+          {{"temperature_scatterer", "temperature", "<P^2>/M", {site}},
+           at_every(scatterers,
+                    [=](const Flux& flux) { return std::vector{flux.scatterer_temperature(sigma)}; })},
+          {{"temperature_particle", "temperature", "<p^2> over the arrivals at a scatterer", {site}},
+           at_every(scatterers, [](const Flux& flux) { return std::vector{flux.particle_temperature()}; })},
+          {{"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}},
+           at_every(crossings, kurtosis)}};
+}
 
 std::vector<Description> descriptions(const Parameters& parameters) {
   std::vector<Description> result;
   for (const Definition& definition : definitions(parameters)) result.push_back(definition.what);
-  result.push_back(momentum_points);
   return result;
 }
 
-/// Scale of a quantity's rounding error. For currents, which may vanish, it is the injected current.
-double rounding_scale(const KineticProblem& problem, const std::string& name,
-                      const std::vector<double>& values) {
-  const auto [particles, energy, momentum] = injected(problem.left, problem.right);
-  if (name == "particle_current") return particles;
-  if (name == "energy_current") return energy;
-  double largest = 0;
+double largest(const std::vector<double>& values) {
+  double result = 0;
   for (const double value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  return largest;
+    if (std::isfinite(value)) result = std::max(result, std::abs(value));
+  return result;
 }
 
 /// Largest difference over all positions and momenta, because two solutions cross at some of them.
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (std::isfinite(a[i])) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
+double difference(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return largest(a);
 }
 
-Results results(const Parameters& parameters, const RefinedSolution& solution) {
-  constexpr double rounding = 5e-14;  // relative to the rounding scale
-  const KineticProblem problem = parameters.problem();
-  const FieldGrid grid = parameters.grid();
-  const KineticFields fine(problem, *solution.fine, grid), coarse(problem, *solution.coarse, grid);
+/// Values of all quantities, in the order of the definitions.
+using Values = std::vector<std::vector<double>>;
+
+Values evaluate(const std::vector<Definition>& definitions, const Profile& profile) {
+  Values values;
+  for (const Definition& definition : definitions) values.push_back(definition.formula(profile));
+  return values;
+}
+
+/// The quantities at the last order. Their errors are the differences from those at the order before; a tenth
+/// of those at the order before that, if it is larger, as two solutions may agree by chance; and `rounding`.
+Results results(const std::vector<Definition>& definitions, const std::vector<Values>& orders,
+                double rounding) {
   Results results;
-  for (const Definition& definition : definitions(parameters)) {
-    const std::vector<double> values = definition.formula(fine);
-    const double error = largest_difference(values, definition.formula(coarse)) +
-                         rounding * rounding_scale(problem, definition.what.name, values);
-    std::vector<double> errors(values.size(), error);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i])) errors[i] = std::numeric_limits<double>::quiet_NaN();
-    results.push_back({definition.what, values, errors});
+  for (std::size_t k = 0; k < definitions.size(); ++k) {
+    const std::vector<double>& values = orders.back()[k];
+    double error = difference(values, orders[orders.size() - 2][k]);
+    if (orders.size() > 2) error = std::max(error, 0.1 * difference(values, orders[orders.size() - 3][k]));
+    error += rounding * std::max(definitions[k].scale, largest(values));
+    std::vector<double> errors;
+    for (const double value : values) errors.push_back(std::isfinite(value) ? error : none);
+    results.push_back({definitions[k].what, values, errors});
   }
-  results.push_back({momentum_points,
-                     {static_cast<double>(2 * solution.fine->momenta().size())},
-                     {std::numeric_limits<double>::quiet_NaN()}});
   return results;
 }
 
+/// Largest error of F and its limits at p = 0, relative to the largest F, and of the currents. Currents may
+/// vanish: their errors are relative to the injected current over 1 + gamma if that is larger.
+double relative_error(const Parameters& parameters, const Results& results) {
+  const auto error_of = [&](const char* name) {
+    return largest(quantity_named(results, name).standard_error);
+  };
+  double error = std::max(error_of("flux_density"), error_of("jump")) /
+                 largest(quantity_named(results, "flux_density").mean);
+  for (const Definition& current : definitions(parameters))
+    if (current.scale > 0)
+      error = std::max(error, error_of(current.what.name.c_str()) /
+                                  std::max(largest(quantity_named(results, current.what.name).mean),
+                                           current.scale / (1 + parameters.problem().gamma)));
+  return error;
+}
+
+/// Raises the order by factors of 3/2 until the target is reached. Orders are even, as the errors at even and
+/// at odd ones differ.
 Outcome solve(const Parameters& parameters, Progress& progress) try {
-  const double target = parameters.target_error;
-  const RefinedSolution solution =
-      refine(parameters.problem(), target, static_cast<int>(parameters.coarsening));
-  const bool reached = solution.error <= target;
-  if (!reached)
-    progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
-                             solution.error, target));
-  return {.results = results(parameters, solution),
-          .events = static_cast<std::uint64_t>(solution.evaluations),
-          .target_quantity = "currents",
-          .target_error = target,
-          .achieved_error = solution.error,
-          .convergence = reached ? Convergence::reached : Convergence::not_reached};
+  constexpr std::size_t lowest = 8, highest = 700;
+  constexpr double rounding = 5e-14;
+  const std::vector<Definition> quantities = definitions(parameters);
+  std::vector<Values> orders;
+  std::unique_ptr<KineticSolution> solution;
+  Outcome outcome{.target_quantity = "flux and currents", .target_error = parameters.target_error};
+  for (std::size_t order = lowest; order < highest; order = 3 * order / 4 * 2) try {
+      solution = std::make_unique<KineticSolution>(parameters.problem(), order, solution.get());
+      outcome.events += static_cast<std::uint64_t>(solution->evaluations());
+      orders.push_back(evaluate(quantities, Profile(parameters, *solution)));
+      if (orders.size() < 2) continue;
+      outcome.results = results(quantities, orders, rounding + solution->iteration_error());
+      outcome.achieved_error = relative_error(parameters, outcome.results);
+      if (outcome.achieved_error > parameters.target_error) continue;
+      outcome.convergence = Convergence::reached;
+      return outcome;
+    } catch (const ConvergenceError&) {
+      if (outcome.results.empty()) throw;
+      break;  // the results of the last order state their errors
+    }
+  progress.say(
+      fmt::format("target not reached: F and the currents are known to {:.1e}, not to {:.1e}, because their "
+                  "series converge slowly; choose a larger --target-error, baths that differ less, or sigma "
+                  "farther from -1, 0 and 1",
+                  outcome.achieved_error, parameters.target_error));
+  return outcome;
 } catch (const ConvergenceError& error) {
   throw NumericalError(error.what());
 }

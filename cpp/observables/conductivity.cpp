@@ -25,7 +25,8 @@ using namespace lorentz;
 
 const EndTallies tallies;
 
-/// Why a chain has no heat conductivity, with the remedy; empty if it has one.
+/// Why a chain has no heat conductivity, with the remedy; empty if it has one. Options are compared exactly:
+/// any other value has a conductivity.
 std::string reason_without_kappa(const OpenChain& chain) {
   if (chain.left.rate == 0 || chain.right.rate == 0)
     return "heat is conducted between two reservoirs; choose --nu-left and --nu-right above 0";

@@ -202,8 +202,8 @@ std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies
 std::vector<double> ring_closed(const Records& records, const Tallies& tallies) {
   const std::vector<double> mean = records.mean();
   const std::size_t cells = tallies.cell.values.size();
-  std::vector<double> closed;
-  double speed = 0;  // in cells per time
+  std::vector<double> closed;  // 0 or 1
+  double speed = 0;            // in cells per time
   for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
     const auto difference = TallyMeans(mean)[tallies.energy_difference.row(k)];
     const double opposite =

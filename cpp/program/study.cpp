@@ -146,6 +146,7 @@ ExitStatus StudyProgram::compute() try {
     Outcome outcome;
     in_threads(1, [&] { outcome = estimate(wanted); });
     const std::vector<double>& errors = quantity_named(outcome.results, study_.target).standard_error;
+    // Exactly 0: all replicas agree, so that more of them do not change the error.
     const bool constant = std::ranges::all_of(errors, [](double error) { return error == 0; });
     const bool last =
         outcome.convergence != Convergence::not_reached || constant || rule.next_look(wanted) > rule.most;

@@ -19,6 +19,7 @@ ClosedDynamics start(const ClosedParameters& parameters, const StreamKey& key) {
           parameters.end_time(), key};
 }
 
+/// 0 for no change at all, also if the scale is 0.
 double relative(double change, double scale) { return change == 0 ? 0 : std::abs(change) / scale; }
 
 }  // namespace

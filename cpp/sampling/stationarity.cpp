@@ -22,11 +22,13 @@ double smallest_p_value(const Records& records, const Columns& columns, std::siz
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (records.size() < least + fitted) return none;
   const auto rows = static_cast<double>(records.size());
-  const Eigen::MatrixXd x = standardised(records, columns);
+  const Matrix x = standardised(records, columns);
   double smallest = 2, number = 0;
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    if (x.col(i).isZero(0)) continue;
-    const double t = std::abs(x.col(i).mean()) * std::sqrt(rows * (rows - 1));  // the deviations have norm 1
+  for (std::size_t k = 0; k < x.columns(); ++k) {
+    if (!varies(x, k)) continue;
+    double sum = 0;
+    for (std::size_t i = 0; i < x.rows(); ++i) sum += x(i, k);
+    const double t = std::abs(sum) * std::sqrt((rows - 1) / rows);  // the deviations have norm 1
     smallest = std::min(smallest, 2 * gsl_cdf_tdist_Q(t, rows - 1 - static_cast<double>(fitted)));
     number += 1;
   }
@@ -67,7 +69,7 @@ std::vector<std::string> remarks_on_stationarity(const Results& results) {
     return {
         "not tested whether stationary: too few replicas or injections; choose more --replicas, or a longer "
         "--observation-time"};
-  if (stationary == 1) return {};
+  if (stationary == 1) return {};  // 0, 1 or NaN
   return {
       fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles changes by "
                   "{:+.2g} of those injected; choose a longer --relaxation-time",

@@ -2,21 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "statistics/standardised.hpp"
 
 namespace lorentz {
 
-using Eigen::ArrayXd;
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 namespace {
 
 /// Number of standardised columns that vary.
-std::size_t varying(const MatrixXd& controls) {
-  return static_cast<std::size_t>((controls.colwise().squaredNorm().array() > 0).count());
+std::size_t varying(const Matrix& controls) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < controls.columns(); ++k) count += varies(controls, k) ? 1 : 0;
+  return count;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
 /// The least number of records for a regression on so many columns.
@@ -27,28 +32,28 @@ std::size_t records_needed(std::size_t columns) {
 }  // namespace
 
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {
-  const MatrixXd x = standardised(records, regression.controls), x_centred = centred(x);
-  const std::size_t needed = records_needed(varying(x));
-  if (needed == 0 || records.size() < needed) return {};
-  const Index rows = x.rows();
+  const Matrix x = standardised(records, regression.controls), x_centred = centred(x);
+  const std::size_t needed = records_needed(varying(x)), rows = x.rows();
+  if (needed == 0 || rows < needed) return {};
 
-  // Column i of the gain: g_i [eq. 34].
-  const MatrixXd gain = pseudo_inverse(x_centred);
-  // Leave-one-out coefficients b_(i) = b - gain_i residual_i / (1 - leverage_i) [eq. 34].
-  const ArrayXd leverage =
-      gain.transpose().cwiseProduct(x_centred).rowwise().sum().array() + 1. / static_cast<double>(rows);
-  if (leverage.maxCoeff() > 0.99)
-    return {};  // with a leverage close to 1, the leave-one-out coefficient is undetermined
-  const ArrayXd own = gain.transpose().cwiseProduct(x).rowwise().sum().array() / (1 - leverage);
+  // Leave-one-out coefficients b_(i) = b - g_i residual_i / (1 - leverage_i) [eq. 34].
+  const Matrix g = transposed(pseudo_inverse(x_centred));
+  std::vector<double> own(rows);  // g_i.x_i / (1 - leverage_i)
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double leverage = dot(g.row(i), x_centred.row(i)) + 1. / static_cast<double>(rows);
+    if (leverage > 0.99) return {};  // close to 1 the leave-one-out coefficient is undetermined
+    own[i] = dot(g.row(i), x.row(i)) / (1 - leverage);
+  }
 
   Records reduced(regression.measured.size());
-  for (Index i = 0; i < rows; ++i) reduced.append(std::vector<double>(reduced.width()));
+  for (std::size_t i = 0; i < rows; ++i) reduced.append(std::vector<double>(reduced.width()));
   for (std::size_t k = 0; k < reduced.width(); ++k) {
-    const MatrixXd y = matrix_of(records, {regression.measured[k]}), y_centred = centred(y);
-    const MatrixXd coefficients = gain * y_centred;
-    const MatrixXd corrected =
-        y - x * coefficients + (own * (y_centred - x_centred * coefficients).array()).matrix();
-    for (Index i = 0; i < rows; ++i) reduced[static_cast<std::size_t>(i)][k] = corrected(i);
+    const Matrix y = matrix_of(records, {regression.measured[k]}), y_centred = centred(y);
+    std::vector<double> b(x.columns());
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t column = 0; column < b.size(); ++column) b[column] += g(i, column) * y_centred(i, 0);
+    for (std::size_t i = 0; i < rows; ++i)
+      reduced[i][k] = y(i, 0) - dot(b, x.row(i)) + own[i] * (y_centred(i, 0) - dot(b, x_centred.row(i)));
   }
   return reduced;
 }
@@ -56,7 +61,7 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
 double variance_ratio(const Records& a, const Records& b, const Columns& columns) {
   double sum = 0, varying = 0;
   const auto deviation = [](const Records& records, std::size_t column) {
-    return centred(matrix_of(records, {column})).stableNorm() /
+    return norm(centred(matrix_of(records, {column})), 0) /
            std::sqrt(static_cast<double>(records.size()) - 1);
   };
   for (const std::size_t column : columns) {

@@ -1,6 +1,5 @@
 #include "statistics/group.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,8 +70,8 @@ Estimate jackknife(const Records& records, const std::function<std::vector<doubl
     for (std::size_t k = 0; k < quantities; ++k) {
       const double deviation = value[k] - centre[k];
       centre[k] += deviation / static_cast<double>(replica + 1);
-      root[k] = Eigen::numext::hypot(
-          root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
+      root[k] =
+          std::hypot(root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
     }
   }
   for (const double each : root)

@@ -1,14 +1,18 @@
 #include "statistics/peak.hpp"
 
+#include <gsl/gsl_multifit_nlinear.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/NonLinearOptimization>
+
+#include "numerics/gsl.hpp"
 
 namespace lorentz {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr Peak no_peak{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 constexpr double part_of_maximum = 0.5;   // level of the window
 constexpr double least_half_width = 2.5;  // in cells
 
@@ -24,32 +28,34 @@ std::vector<double> running_mean(const std::vector<double>& profile) {
   return means;
 }
 
-/// Residuals sqrt(weight) (exp(c0 + c1 u + c2 u^2 + c3 u^3) - y) of every cell, in the form of Eigen's
-/// Levenberg-Marquardt algorithm.
-struct ExpCubic {
-  using Scalar = double;
-  using InputType = Eigen::VectorXd;
-  using ValueType = Eigen::VectorXd;
-  using JacobianType = Eigen::MatrixXd;
-  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
-
-  Eigen::MatrixX4d powers;  // of u
-  Eigen::VectorXd root_weight, y;
-
-  static int inputs() { return 4; }
-  int values() const { return static_cast<int>(y.size()); }
-  Eigen::VectorXd weighted(const Eigen::VectorXd& c) const {
-    return (powers * c).array().exp().matrix().cwiseProduct(root_weight);
-  }
-  int operator()(const Eigen::VectorXd& c, Eigen::VectorXd& residuals) const {
-    residuals = weighted(c) - y.cwiseProduct(root_weight);
-    return 0;
-  }
-  int df(const Eigen::VectorXd& c, Eigen::MatrixXd& jacobian) const {
-    jacobian = weighted(c).asDiagonal() * powers;
-    return 0;
-  }
+/// Cells of a window, with sqrt(weight) and distance u from the middle, -1 to 1.
+struct Cells {
+  std::vector<double> u, root_weight, y;
 };
+
+double cubic(const gsl_vector* c, double u) {
+  return gsl_vector_get(c, 0) +
+         u * (gsl_vector_get(c, 1) + u * (gsl_vector_get(c, 2) + u * gsl_vector_get(c, 3)));
+}
+
+// NOLINTBEGIN(misc-const-correctness): the types are those that GSL calls
+/// Residuals sqrt(weight) (exp(cubic) - y) of every cell.
+int residuals(const gsl_vector* c, void* data, gsl_vector* result) {
+  const Cells& cells = *static_cast<const Cells*>(data);
+  for (std::size_t i = 0; i < cells.u.size(); ++i)
+    gsl_vector_set(result, i, cells.root_weight[i] * (std::exp(cubic(c, cells.u[i])) - cells.y[i]));
+  return GSL_SUCCESS;
+}
+
+int jacobian(const gsl_vector* c, void* data, gsl_matrix* result) {
+  const Cells& cells = *static_cast<const Cells*>(data);
+  for (std::size_t i = 0; i < cells.u.size(); ++i) {
+    double slope = cells.root_weight[i] * std::exp(cubic(c, cells.u[i]));
+    for (std::size_t k = 0; k < 4; ++k, slope *= cells.u[i]) gsl_matrix_set(result, i, k, slope);
+  }
+  return GSL_SUCCESS;
+}
+// NOLINTEND(misc-const-correctness)
 
 }  // namespace
 
@@ -85,34 +91,37 @@ std::optional<PeakWindow> peak_window(const std::vector<double>& profile) {
 }
 
 Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window) {
-  const auto last_cell = static_cast<double>(profile.size() - 1);
-  const auto first = static_cast<Eigen::Index>(std::ceil(std::max(0.0, window.middle - window.half_width)));
-  const auto last =
-      static_cast<Eigen::Index>(std::floor(std::min(last_cell, window.middle + window.half_width)));
-  const Eigen::Index size = last - first + 1;
-  if (size < 4) return {none, none};
+  Cells cells;
+  const double last = std::min(static_cast<double>(profile.size() - 1), window.middle + window.half_width);
+  for (double d = std::ceil(std::max(0.0, window.middle - window.half_width)); d <= last; ++d) {
+    const double u = (d - window.middle) / window.half_width;
+    cells.u.push_back(u);
+    cells.root_weight.push_back(std::sqrt(std::max(0.0, 1 - u * u)));
+    cells.y.push_back(profile[static_cast<std::size_t>(d)]);
+  }
+  if (cells.u.size() < 4) return no_peak;
+  const double scale = *std::ranges::max_element(cells.y);
+  if (!(scale > 0)) return no_peak;
+  for (double& y : cells.y) y /= scale;
 
-  const Eigen::VectorXd y =
-      Eigen::Map<const Eigen::VectorXd>(&profile[static_cast<std::size_t>(first)], size);
-  const double scale = y.maxCoeff();
-  if (!(scale > 0)) return {none, none};
-  const Eigen::ArrayXd u =
-      (Eigen::ArrayXd::LinSpaced(size, static_cast<double>(first), static_cast<double>(last)) -
-       window.middle) /
-      window.half_width;
-  ExpCubic fit{{size, 4}, (1 - u.square()).max(0).sqrt(), y / scale};
-  fit.powers << Eigen::ArrayXd::Ones(size), u, u.square(), u.cube();
-  Eigen::VectorXd c = Eigen::Vector4d(0, 0, std::log(part_of_maximum), 0);
-  Eigen::LevenbergMarquardt solver(fit);
-  solver.parameters.ftol = solver.parameters.xtol = 1e-12;  // well below the differences of jackknife samples
-  solver.minimize(c);
+  constexpr double tolerance = 1e-12;  // of coefficients, well below the differences of jackknife samples
+  constexpr std::size_t limit = 400;
+  gsl_multifit_nlinear_fdf problem{residuals, jacobian, nullptr, cells.u.size(), 4, &cells, 0, 0, 0};
+  const gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
+  const GslObject<gsl_multifit_nlinear_workspace, gsl_multifit_nlinear_alloc, gsl_multifit_nlinear_free>
+  solver(gsl_multifit_nlinear_trust, &parameters, cells.u.size(), std::size_t{4});
+  std::array<double, 4> start{0, 0, std::log(part_of_maximum), 0};
+  const gsl_vector_view first = gsl_vector_view_array(start.data(), start.size());
+  gsl_multifit_nlinear_init(&first.vector, &problem, solver.get());
+  int reason = 0;
+  gsl_multifit_nlinear_driver(limit, tolerance, 0, 0, nullptr, nullptr, &reason, solver.get());
+  const gsl_vector* const fitted = solver.get()->x;
+  const double c1 = gsl_vector_get(fitted, 1), c2 = gsl_vector_get(fitted, 2), c3 = gsl_vector_get(fitted, 3);
 
   // Maximum of the cubic p(u): p'(u) = 0 and p''(u) < 0, in the form without cancellation.
-  const double root = std::sqrt(c[2] * c[2] - 3 * c[1] * c[3]);
-  const double top = c[1] / (root - c[2]);
-  if (!(std::abs(top) < 1)) return {none, none};
-  const double height = std::exp(c[0] + top * (c[1] + top * (c[2] + top * c[3])));
-  return {window.middle + window.half_width * top, scale * height};
+  const double top = c1 / (std::sqrt(c2 * c2 - 3 * c1 * c3) - c2);
+  if (!(std::abs(top) < 1)) return no_peak;
+  return {window.middle + window.half_width * top, scale * std::exp(cubic(fitted, top))};
 }
 
 }  // namespace lorentz

@@ -21,7 +21,6 @@ def test_kinetic_solution_is_at_bonds_scatterers_or_given_positions(solve: Measu
     chain = solve(cells=7)
     np.testing.assert_allclose(chain["flux"].axes["x"], np.arange(8) / 7, rtol=1e-15)
     np.testing.assert_allclose(chain["temperature_scatterer"].axes["x"], (np.arange(7) + 0.5) / 7)
-    assert chain["current_spread"].mean < 1e-12
     rise = np.diff(chain["temperature_scatterer"].mean[[0, -1]]).item()
     assert chain["kappa"].mean == pytest.approx(-7 * float(chain["energy_current"].mean) / rise)
     continuum = solve(positions="0.25,0.5", momentum_bins=10)
@@ -38,26 +37,35 @@ def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None
     width = p[1] - p[0]
     current = float(result["particle_current"].mean)
     np.testing.assert_allclose(flux @ np.sign(p) * width, current, rtol=1e-10)
-    np.testing.assert_allclose(result["rate_right"].mean - result["rate_left"].mean, current, rtol=1e-12)
-    np.testing.assert_allclose(result["rate_right"].mean[0], 220, rtol=1e-12)
-    np.testing.assert_allclose(result["rate_left"].mean[-1], 180, rtol=1e-12)
+    half = flux.shape[1] // 2
+    np.testing.assert_allclose(flux[0, half:].sum() * width, 220, rtol=1e-10)
+    np.testing.assert_allclose(flux[-1, :half].sum() * width, 180, rtol=1e-10)
+    energy = (result["flux_density"].mean * np.sign(p) * p**2 / 2).sum(axis=1) * width
+    np.testing.assert_allclose(energy, result["energy_current"].mean, rtol=1e-4)
     # The mean over a bin differs from the value at its middle by width^2 F''/24.
     density = result["flux_density"].mean
     inner = slice(1, 199)
     curvature = (density[:, 2:200] - 2 * density[:, inner] + density[:, 0:198]) / 24
     np.testing.assert_allclose(flux[:, inner] - density[:, inner], curvature, atol=1e-5)
 
-    g = result["scatterer_density"]
-    root_mass = np.sqrt(3)
-    np.testing.assert_allclose(g.axes["momentum"], root_mass * p, rtol=1e-14)
-    step = root_mass * width
-    np.testing.assert_allclose(g.mean.sum(axis=1) * step, 1, rtol=1e-7)
-    square = (g.mean * g.axes["momentum"] ** 2).sum(axis=1) * step / 3
-    np.testing.assert_allclose(square, result["temperature_scatterer"].mean, rtol=1e-6)
+
+def test_mean_field_of_three_cells_is_mirrored_by_exchanging_the_baths(solve: Measure) -> None:
+    """What arrives at a scatterer crosses the adjacent bonds."""
+    baths = {"nu_left": 180, "nu_right": 220, "temperature_left": 1100 / 9, "temperature_right": 900 / 11}
+    chain = {"cells": 3, "gamma": "N", "momentum_bins": 600, "momentum_max": 120}
+    result, mirrored = solve(**chain), solve(**chain | baths)
+    for name in ("temperature_scatterer", "temperature_particle"):
+        np.testing.assert_allclose(result[name].mean, mirrored[name].mean[::-1], rtol=1e-9)
+    np.testing.assert_allclose(result["flux"].mean, mirrored["flux"].mean[::-1, ::-1], atol=1e-9)
+    assert result["kappa"].mean == pytest.approx(138.612272635, rel=1e-6)
+    flux, p = result["flux_density"].mean, result["flux_density"].axes["momentum"]
+    arriving = np.where(p > 0, flux[:-1], flux[1:])
+    temperature = (arriving * p**2).sum(axis=1) / arriving.sum(axis=1)
+    np.testing.assert_allclose(temperature, result["temperature_particle"].mean, rtol=1e-4)
 
 
 @pytest.mark.parametrize(
-    "options", [{}, {"sigma": -0.9, "gamma": 20}, {"sigma": 0.03}, {"cells": 5, "gamma": 5}]
+    "options", [{}, {"sigma": -0.9, "gamma": 20}, {"sigma": 0.2}, {"cells": 5, "gamma": 5}]
 )
 def test_discretisation_errors_cover_the_distance_from_a_finer_solution(
     solve: Measure, options: dict
@@ -65,14 +73,13 @@ def test_discretisation_errors_cover_the_distance_from_a_finer_solution(
     """The errors of a loose target cover the difference from a much finer solution. Densities, which are not
     truncated at 0, are negative within their errors only."""
     loose = solve(target_error=1e-3, **options)
-    fine = solve(target_error=1e-11, **options)
-    without = {"current_spread", "momentum_points"} | (set() if "cells" in options else {"kappa"})
-    for name in loose.quantities.keys() - without:
+    fine = solve(target_error=1e-5, **options)
+    for name in loose.quantities.keys() - (set() if "cells" in options else {"kappa"}):
         difference = np.abs(loose[name].mean - fine[name].mean)
         allowed = 2 * loose[name].discretisation_error + 2 * fine[name].discretisation_error
         assert (difference <= allowed).all(), name
-        assert (fine[name].discretisation_error <= 2e-8 * np.abs(fine[name].mean).max()).all(), name
-    for name in ("flux", "flux_density", "scatterer_density"):
+        assert (fine[name].discretisation_error <= 1e-4 * np.abs(fine[name].mean).max()).all(), name
+    for name in ("flux", "flux_density"):
         assert (fine[name].mean >= -fine[name].discretisation_error).all(), name
 
 
@@ -88,21 +95,27 @@ def test_kinetic_solution_between_equal_baths_is_gaussian(solve: Measure) -> Non
     assert np.abs(result["jump"].mean).max() < 1e-11 * expected.max()
 
 
-def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path) -> None:
-    result = program("boltzmann", target_error=0, progress="log")
+@pytest.mark.parametrize("options", [{"target_error": 0}, {"sigma": 0.05}, {"temperature_right": 3000}])
+def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path, options: dict) -> None:
+    result = program("boltzmann", progress="log", **options)
     assert result.returncode == 4
     assert "target not reached" in result.stderr
-    assert load(tmp_path / "out.h5").converged == "not reached"
+    stored = load(tmp_path / "out.h5")
+    assert stored.converged == "not reached"
+    assert 0 < stored.provenance["achieved_error"] < 1e-2
+    assert stored.doubts
 
 
 @pytest.mark.parametrize("options", [{"gamma": 0}, {"gamma": 1e-10}, {"nu_left": 0}])
 def test_currents_are_constant_in_extreme_limits(solve: Measure, options: dict) -> None:
-    result = solve(**{"gamma": 1, "coarsening": 2, "target_error": 1e-6} | options)
-    assert result["current_spread"].mean < 2e-15
+    result = solve(**{"gamma": 1, "target_error": 1e-5, "momentum_max": 200} | options)
+    flux, p = result["flux"].mean, result["flux"].axes["momentum"]
+    currents = (flux * np.sign(p)).sum(axis=1) * (p[1] - p[0])
+    np.testing.assert_allclose(currents, result["particle_current"].mean, atol=1e-11 * 400)
 
 
-def test_an_iteration_that_does_not_converge_is_a_numerical_failure(program: Program) -> None:
+def test_iteration_that_does_not_converge_is_a_numerical_failure(program: Program) -> None:
     baths = {"nu_left": 0, "nu_right": 1, "temperature_left": 1, "temperature_right": 1}
-    done = program("boltzmann", sigma=-0.99, gamma=50, coarsening=4, **baths)
+    done = program("boltzmann", sigma=0.99, gamma=500, **baths)
     assert done.returncode == 3
     assert done.stderr.startswith("boltzmann: numerical failure: Newton's iteration")

@@ -46,16 +46,13 @@ SMALL = {
     for panel in planned("smoke")
     for run in reversed(panel.runs)
 }
-# One run of every series, with the largest size that takes no minutes.
+# One run of every series, with its largest size.
 PAPER = {
     f"{panel.name}-{run.series}": shortened(run)
     for panel in planned("paper")
     for run in sorted(
         panel.runs, key=lambda run: float(str(run.options.get("cells", 0)).replace("continuum", "0"))
     )
-    if run.program != "boltzmann"
-    or run.options.get("cells", 0) in ("continuum", 0)
-    or run.options["cells"] <= 32
 }
 
 
@@ -95,8 +92,7 @@ def test_without_fused_multiply_add_at_the_sizes_of_the_paper(name: str, tmp_pat
 @pytest.mark.long
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_no_instruction_depends_on_the_processor(program: str) -> None:
-    """Programs use no 80-bit arithmetic. They query neither caches nor instruction sets, on which Eigen's
-    sums would depend."""
+    """Programs use no 80-bit arithmetic, and query neither caches nor instruction sets."""
     command = ["objdump", "-d", "-C", "--no-show-raw-insn", ROOT / "build/bin" / program]
     function, functions = "", set()
     for line in subprocess.check_output(command, text=True).splitlines():

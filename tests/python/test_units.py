@@ -48,7 +48,7 @@ CASES = {
     "boltzmann": ("boltzmann", {}),
     "boltzmann, cells": ("boltzmann", {"cells": 4, "gamma": "N"}),
 }
-COUNTS = {"mu/mean", "total_number/mean", "momentum_points/mean"}  # ratios of counts, without rounding
+COUNTS = {"mu/mean", "total_number/mean"}  # ratios of counts, without rounding
 
 
 def call(program: str, options: dict[str, object]) -> Result:

@@ -142,7 +142,7 @@ def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
     for (gamma, part), (marker, color, dashes) in zip(kinetic.groupby("gamma"), GAMMAS, strict=False):
         label = rf"$\gamma = {float(gamma):g}$"
         axes.plot(part.cpu_seconds, part.error, marker=marker, color=color, linestyle=dashes, label=label)
-    axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error of the currents")
+    axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="error of F and currents")
     axes.legend(loc="lower left")
 
 

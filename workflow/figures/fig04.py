@@ -39,6 +39,7 @@ def measured(results: Sequence[Result]) -> list[Result]:
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the chain of `like`; None if there is none."""
     for result in results:
+        # Rates are options of one configuration, so that equal ones have equal bits.
         same = run_parameters.gamma(result) == run_parameters.gamma(like) and result.ends("nu") == like.ends(
             "nu"
         )

@@ -27,7 +27,7 @@ MARKS: list[Mark] = [
     ("s", style.VERMILLION, "dotted"),
     ("^", style.GREEN, "dashdot"),
 ]
-POWERS = {0.0: 3, 0.5: 2}  # the paper's exponents, times -1
+POWERS = {0.0: 3, 0.5: 2}  # the paper's exponents, times -1, by sigma as configured
 UNSURE = 0.5  # relative error above which a symbol is open
 
 

@@ -41,6 +41,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     for column, name in later.items():  # defined at all times but the last
         part[column] = pd.Series(result[name].mean)
         part[f"{column}_error"] = pd.Series(result[name].error)
+    # The last time of an octave is a copy of one of the times.
     part = part.merge(by_octave(result).rename(columns={"until": "time"}), on="time", how="left")
     part.insert(0, "scatterer_temperature", str(start(result)))
     part.insert(1, "cells", result.parameters["cells"])

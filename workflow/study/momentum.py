@@ -144,7 +144,7 @@ def draw(results: Sequence[Result]) -> Parts:
     chains = tabulate([result for result in results if result not in of_rings])
     table = rings.tabulate(of_rings)
     broken = table[table.rule == "reversal"].iloc[0]
-    control = table[(table.zeta == broken.zeta) & (table.mass == broken.mass)]
+    control = table[np.isclose(table.zeta, broken.zeta) & np.isclose(table.mass, broken.mass)]
     cases = [Case(*pair) for part in (chains, control) for pair in zip(part.rule, part.epsilon, strict=True)]
     look = {case: points | {"linestyle": "-", "linewidth": 0.6} for case, points in looks(cases).items()}
     figure, panels = plt.subplots(1, 2, figsize=(1.6 * style.COLUMN, style.HEIGHT))

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <random>
 #include <vector>
 
+#include "numerics/matrix.hpp"
 #include "support/columns.hpp"
 #include "support/sample.hpp"
 
@@ -37,14 +37,17 @@ TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
   const Records records = noisy(12, 1, 1);
   const Records reduced = *regress_out(records, support::on_last(records, 2));
   for (std::size_t left_out = 0; left_out < records.size(); ++left_out) {
-    Eigen::Matrix<double, 11, 3> design;
-    Eigen::Vector<double, 11> y;
-    for (std::size_t i = 0, row = 0; i < records.size(); ++i) {
+    Matrix normal(3, 3);  // equations of the linear regression on 1, c_1, c_2
+    std::vector<double> fit(3);
+    for (std::size_t i = 0; i < records.size(); ++i) {
       if (i == left_out) continue;
-      design.row(static_cast<Eigen::Index>(row)) << 1, records[i][1], records[i][2];
-      y[static_cast<Eigen::Index>(row++)] = records[i][0];
+      const double row[] = {1, records[i][1], records[i][2]};
+      for (std::size_t k = 0; k < 3; ++k) {
+        fit[k] += row[k] * records[i][0];
+        for (std::size_t j = 0; j < 3; ++j) normal(k, j) += row[k] * row[j];
+      }
     }
-    const Eigen::Vector3d fit = design.colPivHouseholderQr().solve(y);
+    LuFactors(normal).solve(fit);
     const double expected =
         records[left_out][0] - fit[1] * records[left_out][1] - fit[2] * records[left_out][2];
     EXPECT_NEAR(reduced[left_out][0], expected, 1e-12);

@@ -29,6 +29,7 @@ def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
 def persistence_limits(data: Results) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at sigma = -1, 0 and 1."""
     runs = data.results("fig05", "paper")
+    # Exactly these options: scatterers of mass 0, of the particles' mass, and of infinite mass.
     return _from_law([run for run in runs if run.parameters["sigma"] in (-1, 0, 1)])
 
 
