@@ -44,29 +44,64 @@ class TableError(ValueError):
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
     """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid
     units, TableError if the CSV would not be read as the table."""
-    numbers = table.to_csv(index=False, float_format="%.12g", lineterminator="\n")
-    require_whole(table, numbers)
-    return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{numbers}"
+    return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{as_text(table)}"
 
 
-def require_whole(table: pd.DataFrame, numbers: str) -> None:
-    """Raises TableError unless read_csv(comment="#") makes of the text what the script made."""
+def as_text(table: pd.DataFrame, digits: int = 12) -> str:
+    """The table as CSV, with so many digits. Numbers of a column with fractions have a point, also those
+    that are whole, by which programs take the column for one of fractions. Raises TableError if the text
+    would not be read as the table."""
+
+    def number(value: float) -> str:
+        text = f"{value:.{digits}g}"
+        return f"{text}.0" if text.removeprefix("-").isdigit() else text
+
+    _require_columns(table)
+    text = table.to_csv(index=False, float_format=number, lineterminator="\n")
+    _require_equal(table, text)
+    return text
+
+
+def _require_columns(table: pd.DataFrame) -> None:
+    """Raises TableError for an index or for columns that a CSV cannot hold."""
     if table.index.nlevels > 1 or table.index.name is not None or not is_integer_dtype(table.index):
         raise TableError("the index of the table is not written: return table.reset_index()")
     if table.columns.nlevels > 1 or not all(isinstance(name, str) for name in table.columns):
         raise TableError(f"columns need names of one word each: rename {', '.join(map(str, table.columns))}")
     if not table.columns.is_unique:
         raise TableError(f"two columns have the same name: {', '.join(map(str, table.columns))}")
-    if "#" in numbers:
-        raise TableError("# begins a comment in the CSV: choose another name for a column or label")
     for name, cells in table.items():
         if not all(map(is_scalar, cells)):
             raise TableError(
                 f"cells of the column {name} are no single numbers: give each a row, as explode()"
             )
-    missing = pd.read_csv(io.StringIO(numbers)).isna().to_numpy() != table.isna().to_numpy()
+        if any(isinstance(cell, complex) for cell in cells):
+            raise TableError(f"the column {name} has complex numbers: give both parts a column")
+
+
+def _require_equal(table: pd.DataFrame, text: str) -> None:
+    """Raises TableError unless programs that read the text, as read_csv(comment="#"), make numbers of the
+    numbers and words of the words."""
+    if "#" in text:
+        raise TableError("# begins a comment in the CSV: choose another name for a column or label")
+    read = pd.read_csv(io.StringIO(text))
+    missing = read.isna().to_numpy() != table.isna().to_numpy()
     for name in table.columns[missing.any(axis=0)]:
         raise TableError(f"a label in the column {name} would be read as missing: choose other words")
+    for name, cells in table.items():
+        words = [cell for cell in cells if isinstance(cell, str)]
+        if words and len(words) < cells.notna().sum():
+            raise TableError(f"the column {name} has numbers and words: give words a column of their own")
+        if any(map(_is_number, words)):
+            raise TableError(f"a label in the column {name} would be read as a number: choose other words")
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def _is_label(column: pd.Series) -> bool:

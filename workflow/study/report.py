@@ -14,7 +14,7 @@ from typing import Any
 import jinja2
 import pandas as pd
 
-from workflow.lib.columns import TableError, require_whole
+from workflow.lib.columns import TableError, as_text
 from workflow.lib.identity import ROOT, panel_of, sha256
 from workflow.lib.load import FormatError, cpu_seconds, load
 from workflow.pipeline.configuration import ConfigurationError
@@ -167,9 +167,7 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
         for judgement in judgements
         for number in judgement.verdict.numbers
     ]
-    text = pd.DataFrame(lines).to_csv(index=False, float_format="%.6g")
-    require_whole(pd.DataFrame(lines), text)
-    return text.encode()
+    return as_text(pd.DataFrame(lines), digits=6).encode()
 
 
 def write(selection: str, root: Path = ROOT, *, gallery: bool = False) -> None:
