@@ -60,7 +60,8 @@ void write_quantity(Hdf5Writer& file, const Quantity& quantity) {
   for (const Axis& axis : axes) file.axis(group, axis);
   file.array(group, {"mean", units, description, axes}, quantity.mean);
   if (quantity.control_variates)
-    file.attribute(group + "/mean", "control_variates", quantity.control_variates->used);
+    file.attribute(group + "/mean", "control_variates",
+                   static_cast<std::int64_t>(quantity.control_variates->used));
   if (quantity.count.empty()) {
     const auto* error = "Difference from a coarser discretisation, and rounding";
     file.array(group, {"discretisation_error", units, error, axes}, quantity.standard_error);
@@ -118,14 +119,14 @@ ExitStatus Program::write(const Outcome& outcome) const {
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{5}},
+      {"format_version", std::int64_t{6}},
       {"program", options_.program()},
       {"option_words", options_.option_words()},
       {"source_hash", std::string(build_info.source_hash)},
       {"compiler", std::string(build_info.compiler)},
       {"flags", std::string(build_info.flags)},
       {"libraries", std::string(build_info.libraries)},
-      {"events", outcome.events},
+      {"events", static_cast<std::int64_t>(outcome.events)},
       {"target_quantity", outcome.target_quantity},
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},

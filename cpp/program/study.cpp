@@ -71,7 +71,7 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
                "mean that may be 0; 0: the mean");
   options.integer_or_word("--threads", threads_, {1, 4096}, "processors",
                           "Threads, on which no result depends; processors: one for each", runtime);
-  options.real("--checkpoint-interval", checkpoint_interval_, positive, "s",
+  options.real("--checkpoint-interval", checkpoint_interval_, positive, "second",
                "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
   options.flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
   const auto plan = [&] {

@@ -27,8 +27,8 @@ Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tall
                    const std::function<void(ClosedRun&, TallySums&)>& observe, std::vector<Group> groups,
                    const std::string& target) {
   Group& conservation = groups.emplace_back();
-  conservation.quantity(tallies, tallies.energy_drift);
-  conservation.quantity(tallies, tallies.momentum_drift);
+  conservation.quantity(tallies, tallies.energy_change);
+  conservation.quantity(tallies, tallies.momentum_change);
   const auto sample = [=](const Replica& replica, TallySums& sums) {
     ClosedRun run(parameters, replica);
     run.relax();
@@ -52,8 +52,8 @@ double ClosedRun::momentum_control() const {
 
 std::uint64_t ClosedRun::finish(const ClosedTallies& tallies, TallySums& sums) const {
   const Invariants end = chain_.invariants();
-  sums[tallies.energy_drift] = relative(end.energy - start_.energy, start_.energy);
-  sums[tallies.momentum_drift] =
+  sums[tallies.energy_change] = relative(end.energy - start_.energy, start_.energy);
+  sums[tallies.momentum_change] =
       relative(end.momentum - start_.momentum, std::max(start_.momentum_scale, end.momentum_scale));
   return chain_.events();
 }

@@ -18,10 +18,10 @@ namespace lorentz {
 /// conserve is NaN. The scale of the momentum's error is the larger one of sum |p| + sum |P| at the start and
 /// at the end, because scatterers may start at rest and heavy ones acquire large momenta of both signs.
 struct ClosedTallies : TallySchema {
-  ScalarTally energy_drift =
-      tally("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy");
-  ScalarTally momentum_drift =
-      tally("momentum_drift", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|");
+  ScalarTally energy_change =
+      tally("energy_change", "1", "Mean over replicas of |change of total energy| / total energy");
+  ScalarTally momentum_change = tally(
+      "momentum_change", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|");
 };
 
 /// Simulation of one replica of a closed chain: relaxation, observation, conservation check.

@@ -20,14 +20,14 @@ std::size_t size_of(const std::vector<Description>& descriptions) {
 
 /// Appends the described quantities, whose values follow one another from `at` on, which is moved past them.
 void append(Results& results, const std::vector<Description>& what, const Estimate& estimate, std::size_t& at,
-            std::uint64_t replicas, const std::optional<ControlVariates>& control_variates) {
+            std::int64_t replicas, const std::optional<ControlVariates>& control_variates) {
   for (const Description& each : what) {
     const auto begin = static_cast<std::ptrdiff_t>(at),
                end = begin + static_cast<std::ptrdiff_t>(each.size());
     results.push_back({each,
                        {estimate.mean.begin() + begin, estimate.mean.begin() + end},
                        {estimate.standard_error.begin() + begin, estimate.standard_error.begin() + end},
-                       std::vector<std::uint64_t>(each.size(), replicas),
+                       std::vector<std::int64_t>(each.size(), replicas),
                        control_variates});
     at += each.size();
   }
@@ -133,12 +133,13 @@ Results Group::estimate(const Records& measured) const {
     }
     return values;
   });
+  const auto replicas = static_cast<std::int64_t>(records.size());
   Results results;
   std::size_t at = 0;
-  for (const auto& part : formulas_) append(results, part.what, all, at, records.size(), control_variates);
+  for (const auto& part : formulas_) append(results, part.what, all, at, replicas, control_variates);
   for (const auto& part : statistics_) {
     at = 0;
-    append(results, part.what, part.of(records), at, records.size(), control_variates);
+    append(results, part.what, part.of(records), at, replicas, control_variates);
   }
   return results;
 }

@@ -23,7 +23,7 @@ struct ControlVariates {
 struct Quantity {
   Description what;
   std::vector<double> mean, standard_error;  // 0: all replicas agree; if computed: discretisation error
-  std::vector<std::uint64_t> count{};        // replicas that contribute; empty if computed
+  std::vector<std::int64_t> count{};         // replicas that contribute; empty if computed
   std::optional<ControlVariates> control_variates{};
 };
 

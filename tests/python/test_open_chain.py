@@ -70,7 +70,7 @@ def test_open_chain_against_the_reference_simulator(
     errors = profile["energy_current"].error
     assert cells == 1 or errors[[0, -1]].max() < 1.5 * errors[1:-1].max()
     density = profile["scatterer_density"]
-    square = (density.mean * density.axes["momentum"] ** 2).sum(axis=1) * (2 * MAX / BINS)
+    square = (density.mean * density.axes["scaled_momentum"] ** 2).sum(axis=1) * (2 * MAX / BINS)
     np.testing.assert_allclose(
         square, profile["temperature_scatterer"].mean[[0, -1]], rtol=0.1
     )  # finite bins
@@ -161,7 +161,7 @@ def test_open_chain_between_equal_baths_is_gaussian(measure: Measure) -> None:
 
     density = profile["scatterer_density"]
     edges = np.linspace(-60, 60, BINS + 1)
-    inner = np.abs(density.axes["momentum"]) < 30
+    inner = np.abs(density.axes["scaled_momentum"]) < 30
 
     def largest(quantity: Quantity, expected: np.ndarray) -> float:
         """Largest z-score without injected fluxes, from which the control variates remove all noise."""

@@ -37,7 +37,7 @@ struct CellTallies : TallySchema {
   CellTallies(std::size_t cells, const Bins& bins)
       : cell(numbered_axis("cell", "Cell number, from 0", cells)),
         bond(numbered_axis("bond", "Bond number; 0 and N are the openings", cells + 1)),
-        momentum{"momentum", "momentum", "P/sqrt(M), middle of the bin", bins.middles()} {}
+        momentum{"scaled_momentum", "momentum", "P/sqrt(M), middle of the bin", bins.middles()} {}
 };
 
 /// Passages of the marks of a chain in one direction during a window, and the times that particles spend in

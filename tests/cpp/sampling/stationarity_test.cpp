@@ -15,18 +15,19 @@ const Window window{2, 10};
 
 // Detected mistakes: the middle scatterer is another one; the first half is not subtracted; the energy of a
 // particle that leaves is added; exits after the window count.
-TEST(Drift, ChangesBetweenTheHalves) {
+TEST(HalfDifferences, ChangesBetweenTheHalves) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
-  Drift drift(chain, window);
-  drift.on_injection(End::left, 3, 2);
-  drift.on_injection(End::left, 3, 0);
-  drift.on_exit(End::right, 7, 4);
-  drift.on_exit(End::left, 10, -8);
-  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U}) drift.on_scatterer(scatterer, 1. * scatterer, 6);
-  drift.finish({0, 2, 4, 6, 8}, 10);
+  const HalfDifferenceTallies tallies(schema);
+  HalfDifferences half_differences(chain, window);
+  half_differences.on_injection(End::left, 3, 2);
+  half_differences.on_injection(End::left, 3, 0);
+  half_differences.on_exit(End::right, 7, 4);
+  half_differences.on_exit(End::left, 10, -8);
+  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U})
+    half_differences.on_scatterer(scatterer, 1. * scatterer, 6);
+  half_differences.finish({0, 2, 4, 6, 8}, 10);
   TallySums sums(schema);
-  drift.record(tallies, sums);
+  half_differences.record(tallies, sums);
   EXPECT_EQ(sums[tallies.energy_current], (0.25 * 16 - 0.25 * 4) / 4);
   EXPECT_EQ(sums[tallies.particle_current], -0.125);
   EXPECT_EQ(sums[tallies.energy], (2. - 8.) / 8);
@@ -36,10 +37,11 @@ TEST(Drift, ChangesBetweenTheHalves) {
   EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{-2, -2, -2, 0, 0, 0}));
 }
 
-/// drift_p_value of normal records of variance 1, with `shift` standard errors of the mean in one column.
+/// stationarity_p_value of normal records of variance 1, with `shift` standard errors of the mean in one
+/// column.
 double p_value(std::size_t replicas, std::size_t shifted, double shift, std::uint64_t seed) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
+  const HalfDifferenceTallies tallies(schema);
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   Records records(schema.width());
@@ -49,7 +51,7 @@ double p_value(std::size_t replicas, std::size_t shifted, double shift, std::uin
     row[shifted] += shift / std::sqrt(static_cast<double>(replicas));
     records.append(row);
   }
-  return quantity_named(stationarity(tallies, chain).estimate(records), "drift_p_value").mean.front();
+  return quantity_named(stationarity(tallies, chain).estimate(records), "stationarity_p_value").mean.front();
 }
 
 // The energy has half of the level, the other five columns the other half, which is exact for p << 1.
@@ -62,9 +64,9 @@ TEST(Stationarity, FalseAlarmsHaveTheStatedFrequency) {
 }
 
 // Detected mistake: a column is left out.
-TEST(Stationarity, DriftOfOneColumnIsFound) {
+TEST(Stationarity, ADifferenceInOneColumnIsFound) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
+  const HalfDifferenceTallies tallies(schema);
   Columns tested = tallies.halves();
   tested.push_back(tallies.energy.column);
   for (const std::size_t column : tested) {
@@ -78,7 +80,7 @@ TEST(Stationarity, DriftOfOneColumnIsFound) {
 // passes whose gain could not be seen.
 TEST(Stationarity, GainOfParticles) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
+  const HalfDifferenceTallies tallies(schema);
   const auto stationary = [&](double gain, double scatter = 1e-3) {
     Records records(schema.width());
     for (const double noise : {-1., 1., -1., 1., -1., 1., -1., 1., -1., 1.}) {
