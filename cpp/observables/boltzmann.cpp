@@ -210,7 +210,7 @@ Results results(const Parameters& parameters, const RefinedSolution& solution) {
   return results;
 }
 
-Outcome solve(const Parameters& parameters, Progress& progress) try {
+RunResult solve(const Parameters& parameters, Progress& progress) try {
   const double target = parameters.target_error;
   const RefinedSolution solution =
       refine(parameters.problem(), target, static_cast<int>(parameters.coarsening));

@@ -1,3 +1,4 @@
+// For the study "does the paper hold?" only (panel `momentum`); no figure of the paper needs it.
 /// Integrated heat current of a closed chain in the stationary state: Q, the integral over a time t of J_q =
 /// sum of u (u^2/2 - T), as a mean square per cell over all origins of time in a record and over replicas.
 ///

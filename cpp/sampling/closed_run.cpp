@@ -10,13 +10,11 @@
 namespace lorentz {
 namespace {
 
-ClosedDynamics start(const ClosedParameters& parameters, const StreamKey& key) {
+PhasePoint start(const ClosedParameters& parameters, const StreamKey& key) {
   const ClosedChain chain = parameters.chain();
-  if (parameters.fugacity)
-    return {chain, stationary_start(chain, parameters.stationary_measure(), key), parameters.end_time(), key};
+  if (parameters.fugacity) return stationary_start(chain, parameters.stationary_measure(), key);
   const StartTemperatures temperatures{parameters.temperature, parameters.scatterer_temperature};
-  return {chain, closed_chain_start(chain, temperatures, parameters.zero_total_momentum, key),
-          parameters.end_time(), key};
+  return closed_chain_start(chain, temperatures, parameters.zero_total_momentum, key);
 }
 
 double relative(double change, double scale) { return change == 0 ? 0 : std::abs(change) / scale; }
@@ -41,9 +39,17 @@ Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tall
 ClosedRun::ClosedRun(const ClosedParameters& parameters, const Replica& replica)
     : parameters_(parameters),
       replica_(replica),
-      chain_(start(parameters, replica.key)),
+      chain_(parameters.chain(), start(parameters, replica.key), parameters.end_time(), replica.key),
       start_(chain_.invariants()),
       longest_clock_(parameters.longest_clock()) {}
+
+std::pair<PhasePoint, std::uint64_t> relaxed_start(const ClosedParameters& parameters,
+                                                   const Replica& replica) {
+  if (parameters.relaxation_time == 0) return {start(parameters, replica.key), 0};
+  ClosedRun run(parameters, replica);
+  run.relax();
+  return {run.chain().phase_point(run.clock(parameters.relaxation_time)), run.chain().events()};
+}
 
 double ClosedRun::momentum_control() const {
   const double mean = parameters_.mean_square_momentum(), momentum = start_.momentum;

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/closed_dynamics.hpp"
@@ -82,6 +83,11 @@ class ClosedRun {
   double longest_clock_;  // 2^32 flights at the speed of the hottest particles
   double clock_start_ = 0;
 };
+
+/// State at the end of the relaxation, and the number of events until then. Without relaxation the state is
+/// that of the start, digit by digit.
+std::pair<PhasePoint, std::uint64_t> relaxed_start(const ClosedParameters& parameters,
+                                                   const Replica& replica);
 
 /// Study of a closed chain: every replica relaxes, `observe` takes the run through its observation and fills
 /// the tallies, and the conservation errors are added. The parameters are valid.

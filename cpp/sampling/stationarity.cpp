@@ -51,13 +51,13 @@ Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain)
                  of_energy = smallest_p_value(records, columns_of({tallies.energy}), 0);
     // Half of the level for each, NaN left out.
     const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);
-    const Estimate gain = jackknife(records, [=](TallyMeans mean) {
+    const Estimates gain = jackknife(records, [=](TallyMeans mean) {
       return std::vector{mean[tallies.particles] / (chain.left.rate + chain.right.rate)};
     });
     const double share = gain.mean.front(), error = gain.standard_error.front();
     const bool tested = !std::isnan(p_value) && error <= tolerated_gain,
                stationary = p_value > level && std::abs(share) - 3 * error <= tolerated_gain;
-    return Estimate{{p_value, share, tested ? static_cast<double>(stationary) : none}, {none, error, none}};
+    return Estimates{{p_value, share, tested ? static_cast<double>(stationary) : none}, {none, error, none}};
   });
   return group;
 }

@@ -19,8 +19,8 @@ std::size_t size_of(const std::vector<Description>& descriptions) {
 }
 
 /// Appends the described quantities, whose values follow one another from `at` on, which is moved past them.
-void append(Results& results, const std::vector<Description>& what, const Estimate& estimate, std::size_t& at,
-            std::int64_t replicas, const std::optional<ControlVariates>& control_variates) {
+void append(Results& results, const std::vector<Description>& what, const Estimates& estimate,
+            std::size_t& at, std::int64_t replicas, const std::optional<ControlVariates>& control_variates) {
   for (const Description& each : what) {
     const auto begin = static_cast<std::ptrdiff_t>(at),
                end = begin + static_cast<std::ptrdiff_t>(each.size());
@@ -39,10 +39,10 @@ const Quantity& quantity_named(const Results& results, std::string_view name) {
   return *std::ranges::find(results, name, [](const Quantity& each) { return each.what.name; });
 }
 
-Estimate jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
+Estimates jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
   const std::vector<double> mean = records.mean();
   const auto replicas = static_cast<double>(records.size());
-  Estimate estimate{f(mean), {}};
+  Estimates estimate{f(mean), {}};
   const std::size_t quantities = estimate.mean.size();
   if (records.size() < 2) {
     estimate.standard_error.assign(quantities, std::numeric_limits<double>::quiet_NaN());
@@ -103,7 +103,7 @@ void Group::quantities(const std::vector<Description>& descriptions,
 }
 
 void Group::statistics(const std::vector<Description>& descriptions,
-                       std::function<Estimate(const Records&)> estimate) {
+                       std::function<Estimates(const Records&)> estimate) {
   statistics_.push_back({descriptions, std::move(estimate)});
 }
 
@@ -122,7 +122,7 @@ Results Group::estimate(const Records& measured) const {
 
   std::vector<Array> formulas;
   for (const auto& part : formulas_) formulas.push_back(part.of(records));
-  const Estimate all = jackknife(records, [&](TallyMeans mean) {
+  const Estimates all = jackknife(records, [&](TallyMeans mean) {
     std::vector<double> values;
     for (std::size_t i = 0; i < formulas.size(); ++i) {
       const std::vector<double> more = formulas[i](mean);

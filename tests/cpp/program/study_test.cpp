@@ -294,7 +294,7 @@ TEST_F(StudyTest, SignalsEndTheRunWithACheckpoint) {
   }
   const auto estimating = [] {
     Study study = study_of(measure);
-    study.groups.front().statistics({{"more", "1", "Another"}}, [](const Records&) -> Estimate {
+    study.groups.front().statistics({{"more", "1", "Another"}}, [](const Records&) -> Estimates {
       interrupt(SIGINT);
       return {{1}, {0}};
     });
