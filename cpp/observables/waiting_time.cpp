@@ -27,15 +27,19 @@ struct Parameters : ClosedParameters {
   Parameters() { observation_time = 200; }
   /// Time of a flight over one cell at the thermal speed.
   double thermal_flight() const { return ring.cell_length / std::sqrt(temperature); }
-  LogGrid bins() const { return {1e-3 * thermal_flight(), decades, bins_per_decade}; }
+  /// From a time on that no particle is fast enough for: 1e-3 flights at the higher one of both temperatures.
+  LogGrid bins() const { return {1e-3 * ring.cell_length / std::sqrt(hottest()), decades, bins_per_decade}; }
 };
 
 struct Tallies : ClosedTallies {
-  Axis tau;
-  Tally count = tally("count", {tau}, "1", "Waiting times in a bin");
-  Tally log_sum = tally("log_sum", {tau}, "1", "Sum of ln tau in a bin");
+  Axis tau, bin;
+  Tally count = tally("count", {bin}, "1", "Waiting times in a bin");
+  Tally log_sum = tally("log_sum", {bin}, "1", "Sum of ln tau in a bin");
 
-  explicit Tallies(const LogGrid& bins) : tau{"tau", "time", "Geometric middle of the bin", bins.middles()} {}
+  explicit Tallies(const LogGrid& bins)
+      : tau{"tau", "time", "Geometric middle of the bin", bins.middles()},
+        bin(numbered_axis("bin", "Bins of tau; the last one has all times beyond them",
+                          bins.intervals() + 1)) {}
 };
 
 /// Sum of the logarithms of positive numbers, computed from products, so that few logarithms are evaluated.
@@ -60,11 +64,12 @@ class LogSum {
 
 class WaitingTimes {
  public:
-  explicit WaitingTimes(const LogGrid& grid) : grid_(grid), bins_(grid.intervals()) {}
+  explicit WaitingTimes(const LogGrid& grid)
+      : grid_(grid), end_(grid.points().back()), bins_(grid.intervals() + 1) {}
 
   void on_flight(const Departure& departure) {
     if (!std::isfinite(departure.duration)) return;  // a particle at rest does not arrive
-    Bin& bin = bins_[grid_.interval(departure.duration)];
+    Bin& bin = departure.duration < end_ ? bins_[grid_.interval(departure.duration)] : bins_.back();
     ++bin.count;
     bin.logarithms.add(departure.duration);
   }
@@ -83,15 +88,16 @@ class WaitingTimes {
   };
 
   const LogGrid& grid_;
-  std::vector<Bin> bins_;
+  double end_;
+  std::vector<Bin> bins_;  // and one for the times beyond them
 };
 
-/// Probability density in every bin.
+/// Probability density in every bin; times beyond the bins count in the total.
 std::vector<double> density(std::span<const double> counts, const std::vector<double>& edges) {
   double total = 0;
   for (const double count : counts) total += count;
   std::vector<double> result;
-  for (std::size_t bin = 0; bin < counts.size(); ++bin)
+  for (std::size_t bin = 0; bin + 1 < counts.size(); ++bin)
     result.push_back(counts[bin] / total / (edges[bin + 1] - edges[bin]));
   return result;
 }

@@ -17,7 +17,7 @@ from workflow.claims.data import (
 from workflow.claims.verdict import Estimate
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.physics.rings import chain
+from workflow.physics.rings import chain, gas
 
 LARGE = 4  # the largest sizes are those within this factor of the largest: two octaves
 LONG = 128  # cells; in shorter chains the exponents over the largest sizes still change
@@ -122,7 +122,7 @@ def _middles(ring: Result) -> list[float]:
 
 def _longest(rings: Sequence[Result]) -> list[Result]:
     """The ring of longest time of every gas."""
-    longest = {_gas(ring): ring for ring in sorted(rings, key=_last_time)}
+    longest = {gas(ring): ring for ring in sorted(rings, key=_last_time)}
     found = [ring for ring in longest.values() if _last_time(ring) > LATE]
     if not found:
         raise MissingError(f"no ring was observed beyond t = {LATE}")
@@ -130,8 +130,8 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
 
 
 def _gas(ring: Result) -> str:
-    gas = chain(ring)
-    return f"ζ = {format_number(gas.zeta)}, M = {format_number(gas.mass)}"
+    scaled = chain(ring)
+    return f"ζ = {format_number(scaled.zeta)}, M = {format_number(scaled.mass)}"
 
 
 def _last_time(ring: Result) -> float:
