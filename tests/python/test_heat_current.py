@@ -11,7 +11,7 @@ from workflow.lib.load import Quantity, Result
 from workflow.physics.rings import gas, tabulate
 from workflow.physics.sound import Chain
 
-T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
+T, LENGTH, FUGACITY = 3.7, 0.6, 2.5
 ZETA = FUGACITY * LENGTH
 GAS = {"temperature": T, "cell_length": LENGTH, "fugacity": FUGACITY, "cells": 20}
 SHORT = {

@@ -1,5 +1,6 @@
 #include "sampling/stationarity.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -73,6 +74,30 @@ TEST(Stationarity, ADifferenceInOneColumnIsFound) {
     EXPECT_LT(p_value(32, column, 12, 1), 1e-4) << column;
     EXPECT_GT(p_value(32, column, 0, 1), 1e-4) << column;
   }
+}
+
+// The p-value is twice the two-sided one of Student's t, exact for records whose mean and deviation are
+// known. Detected mistakes: a one-sided or uncorrected p-value; degrees of freedom of as many as records.
+TEST(Stationarity, ThresholdOfThePValue) {
+  TallySchema schema;
+  const HalfDifferenceTallies tallies(schema);
+  Columns tested = tallies.halves();
+  tested.push_back(tallies.energy.column);
+  constexpr std::size_t replicas = 11;
+  const OpenChain fed{.cells = 5, .left = {6, 1}, .right = {4, 1}};
+  const double t = gsl_cdf_tdist_Qinv(1e-4 / 4, replicas - 1);
+  for (const std::size_t column : tested)
+    for (const double factor : {-1.01, -0.99, 0.99, 1.01}) {
+      Records records(schema.width());
+      for (std::size_t replica = 0; replica < replicas; ++replica) {
+        std::vector<double> row(schema.width());
+        const double noise = replica == 0 ? 0 : replica % 2 == 0 ? 1 : -1;  // of variance 1
+        row[column] = factor * t / std::sqrt(replicas) + noise;
+        records.append(row);
+      }
+      const Results found = stationarity(tallies, fed).estimate(records);
+      EXPECT_EQ(quantity_named(found, "stationary").mean.front(), std::abs(factor) < 1) << column << factor;
+    }
 }
 
 // Detected mistakes: the gain is compared with its error alone, so that the slow growth of every chain
