@@ -216,3 +216,73 @@ def test_exponents_of_a_pulse_and_its_end(measure: Measure, gamma: str | float) 
     np.testing.assert_allclose(
         local.mean[defined], np.array([exponent(*ends) for ends in octaves])[defined], rtol=1e-9
     )
+
+
+OPEN = CHAIN | {"cell_length": 0.07, "relaxation_time": 3, "observation_time": 13}
+
+
+def test_conductivity_is_that_of_its_current_and_temperatures(measure: Measure) -> None:
+    """[eq. 28], N = 7. Detected mistakes: the sign; N - 1 gradients; another temperature."""
+    result = measure("conductivity", **OPEN | {"gamma": "N", "replicas": 60})
+    value = {name: float(quantity.mean) for name, quantity in result.quantities.items()}
+    rise = value["temperature_last"] - value["temperature_first"]
+    assert value["kappa"] == pytest.approx(-7 * value["energy_current"] / rise, rel=1e-12)
+    assert result["stationary"].mean == 1
+
+
+def test_differences_deviations_and_lines_of_a_profile(measure: Measure) -> None:
+    """Eleven cells, of which seven are in the middle half. Detected mistakes: lines through other cells, or not
+    relative; means over cells in place of bonds."""
+    result = measure("steady_profile", **OPEN | {"cells": 11})
+    mean = {name: quantity.mean for name, quantity in result.quantities.items()}
+    cells = np.arange(11)
+    np.testing.assert_allclose(
+        mean["temperature_difference"],
+        mean["temperature_scatterer"] - mean["temperature_particle"],
+        rtol=1e-9,
+    )
+    line = np.polyfit(cells[2:9], mean["density"][2:9], 1)
+    assert mean["density_slope"] == pytest.approx(line[0] * 11 / np.polyval(line, 5), rel=1e-9)
+    ends = mean["density"][[0, -1]] / np.polyval(line, [0, 10]) - 1
+    np.testing.assert_allclose(mean["density_excess"], ends, rtol=1e-9)
+    assert mean["energy_current_mean"] == pytest.approx(mean["energy_current"].mean(), rel=1e-12)
+    current = mean["particle_current"]
+    np.testing.assert_allclose(mean["particle_current_deviation"], current - current.mean(), atol=1e-9)
+    for side in ("right", "left"):
+        rate = mean[f"rate_{side}"]
+        np.testing.assert_allclose(
+            mean[f"rate_{side}_deviation"], rate - np.polyval(np.polyfit(cells, rate, 1), cells), atol=1e-9
+        )
+
+
+def test_moments_and_jump_of_the_flux(measure: Measure) -> None:
+    """With narrow bins, and too few replicas for control variates. Detected mistakes: moments of the density, or of
+    both directions; a jump between the middles of the bins."""
+    result = measure("momentum_flux", **OPEN | {"momentum_bins": 6000, "momentum_max": 90, "replicas": 10})
+    flux, p = result["flux"].mean, result["flux"].axes["momentum"]
+    sides = [np.sign(p) == sign for sign in (-1, 1)]
+
+    def moment(power: int) -> np.ndarray:
+        return np.stack([(flux * p**power)[:, side].sum(axis=1) for side in sides], axis=1)
+
+    square = moment(2) / moment(0)
+    np.testing.assert_allclose(result["square"].mean, square, rtol=1e-4)
+    np.testing.assert_allclose(result["kurtosis"].mean, moment(4) / moment(0) / square**2, rtol=1e-4)
+    assert result["crossings"].mean == pytest.approx(moment(0).sum(axis=1).mean() * (p[1] - p[0]), rel=1e-6)
+    zero = len(p) // 2
+    at = [
+        np.array([np.polyval(np.polyfit(p[part], row[part], 1), 0) for row in flux])
+        for part in (slice(zero, zero + 2), slice(zero - 2, zero))
+    ]
+    np.testing.assert_allclose(result["jump"].mean, at[0] - at[1], atol=1e-9 * flux.max())
+
+
+def test_alpha_and_the_centre_of_a_pulse(measure: Measure) -> None:
+    """Detected mistakes: alpha over another range of times; the centre has five cells on one side."""
+    spread = measure("displacement", **RING, decades=3, relaxation_time=3, observation_time=50, fit_decades=1)
+    variance = spread["variance"]
+    time, late = variance.axes["time"], variance.axes["time"] >= 4.999
+    assert spread["alpha"].mean == pytest.approx(slope(time[late], np.log(variance.mean[late])), rel=1e-9)
+    pulse = measure("energy_pulse", cells=23, particles_per_cell=30, times="0.01,0.013")
+    centre = pulse["energy_difference"].mean[:, 9:14].sum(axis=1) / pulse["injected_energy"].mean
+    np.testing.assert_allclose(pulse["centre_share"].mean, centre, rtol=1e-9)
