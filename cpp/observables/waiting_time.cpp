@@ -28,7 +28,10 @@ struct Parameters : ClosedParameters {
   /// Time of a flight over one cell at the thermal speed.
   double thermal_flight() const { return ring.cell_length / std::sqrt(temperature); }
   /// From a time on that no particle is fast enough for: 1e-3 flights at the higher one of both temperatures.
-  LogGrid bins() const { return {1e-3 * ring.cell_length / std::sqrt(hottest()), decades, bins_per_decade}; }
+  /// The last bin, which is not shown, has all times beyond the others.
+  LogGrid bins() const {
+    return {1e-3 * ring.cell_length / std::sqrt(hottest()), decades + 1. / bins_per_decade, bins_per_decade};
+  }
 };
 
 struct Tallies : ClosedTallies {
@@ -38,8 +41,9 @@ struct Tallies : ClosedTallies {
 
   explicit Tallies(const LogGrid& bins)
       : tau{"tau", "time", "Geometric middle of the bin", bins.middles()},
-        bin(numbered_axis("bin", "Bins of tau; the last one has all times beyond them",
-                          bins.intervals() + 1)) {}
+        bin(numbered_axis("bin", "Bins of tau, and that of times beyond them", bins.intervals())) {
+    tau.values.pop_back();
+  }
 };
 
 /// Sum of the logarithms of positive numbers, computed from products, so that few logarithms are evaluated.
@@ -64,12 +68,11 @@ class LogSum {
 
 class WaitingTimes {
  public:
-  explicit WaitingTimes(const LogGrid& grid)
-      : grid_(grid), end_(grid.points().back()), bins_(grid.intervals() + 1) {}
+  explicit WaitingTimes(const LogGrid& grid) : grid_(grid), bins_(grid.intervals()) {}
 
   void on_flight(const Departure& departure) {
     if (!std::isfinite(departure.duration)) return;  // a particle at rest does not arrive
-    Bin& bin = departure.duration < end_ ? bins_[grid_.interval(departure.duration)] : bins_.back();
+    Bin& bin = bins_[grid_.interval(departure.duration)];
     ++bin.count;
     bin.logarithms.add(departure.duration);
   }
@@ -88,11 +91,10 @@ class WaitingTimes {
   };
 
   const LogGrid& grid_;
-  double end_;
-  std::vector<Bin> bins_;  // and one for the times beyond them
+  std::vector<Bin> bins_;
 };
 
-/// Probability density in every bin; times beyond the bins count in the total.
+/// Probability density in every bin but the last, which counts in the total.
 std::vector<double> density(std::span<const double> counts, const std::vector<double>& edges) {
   double total = 0;
   for (const double count : counts) total += count;

@@ -45,10 +45,13 @@ ClosedRun::ClosedRun(const ClosedParameters& parameters, const Replica& replica)
 
 std::pair<PhasePoint, std::uint64_t> relaxed_start(const ClosedParameters& parameters,
                                                    const Replica& replica) {
-  if (parameters.relaxation_time == 0) return {start(parameters, replica.key), 0};
-  ClosedRun run(parameters, replica);
-  run.relax();
-  return {run.chain().phase_point(run.clock(parameters.relaxation_time)), run.chain().events()};
+  PhasePoint point = start(parameters, replica.key);
+  const double end = parameters.relaxation_time;
+  if (end == 0) return {std::move(point), 0};
+  ClosedDynamics chain(parameters.chain(), point, end, replica.key);  // a ClosedRun would sum its invariants
+  NoObserver nobody;
+  simulate(chain, end, nobody, replica.heartbeat);
+  return {chain.phase_point(end), chain.events()};
 }
 
 double ClosedRun::momentum_control() const {
