@@ -13,4 +13,3 @@ set(NUMERIC_DEFINITIONS R123_USE_SSE=0)  # Philox does not need intrinsics
 # Lower levels for libraries without an event loop, which take longer to compile than they save. No level changes a result.
 set(SOLVER_LEVEL -O2)   # statistics and the kinetic equation, which solve once
 set(PROGRAM_LEVEL -O1)  # options, files, checkpoints
-set(DESCRIBE_LEVEL -O0) # clients of nlohmann-json and CLI11

@@ -254,13 +254,13 @@ double relative_error(const Parameters& parameters, const Results& results) {
 
 /// Raises the order by factors of 3/2 until the target is reached. Orders are even, as the errors at even and
 /// at odd ones differ.
-Outcome solve(const Parameters& parameters, Progress& progress) try {
+RunResult solve(const Parameters& parameters, Progress& progress) try {
   constexpr std::size_t lowest = 8, highest = 700;
   constexpr double rounding = 5e-14;
   const std::vector<Definition> quantities = definitions(parameters);
   std::vector<Values> orders;
   std::unique_ptr<KineticSolution> solution;
-  Outcome outcome{.target_quantity = "flux and currents", .target_error = parameters.target_error};
+  RunResult outcome{.target_quantity = "flux and currents", .target_error = parameters.target_error};
   for (std::size_t order = lowest; order < highest; order = 3 * order / 4 * 2) try {
       solution = std::make_unique<KineticSolution>(parameters.problem(), order, solution.get());
       outcome.events += static_cast<std::uint64_t>(solution->evaluations());

@@ -49,7 +49,7 @@ double rise(TallyMeans mean) { return mean[tallies.temperature][1] - mean[tallie
 /// standard errors, because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0
 /// with one replica.
 Group::Array current_per_rise(const Records& records, double cells, bool defined) {
-  const Estimate found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
+  const Estimates found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
   const double error = records.size() > 1 ? found.standard_error.front() : 0;
   const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
   return [=](TallyMeans mean) {

@@ -106,8 +106,7 @@ Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
 
 std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
-  const Axis middle{"time", "time", "Geometric middle of two neighbouring times",
-                    parameters.log_times.grid(times.back()).middles()};
+  const Axis middle{"time", "time", "Geometric middle of two neighbouring times", geometric_middles(times)};
   const double fit_from = parameters.log_times.fit_from(times.back());
   const auto alpha = [=](TallyMeans mean) {
     return fit_power(times, mean[tallies.square], fit_from, times.back());

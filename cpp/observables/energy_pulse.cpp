@@ -20,12 +20,9 @@
 #include <malloc.h>
 #endif
 
-#include "engine/closed_dynamics.hpp"
-#include "engine/closed_start.hpp"
 #include "engine/pair.hpp"
 #include "program/errors.hpp"
-#include "program/study.hpp"
-#include "sampling/chain_parameters.hpp"
+#include "sampling/closed_run.hpp"
 #include "statistics/moving_peak.hpp"
 
 namespace {
@@ -43,6 +40,14 @@ struct Parameters {
   std::vector<double> times{0.01, 0.02, 0.03, 0.04, 0.05,
                             0.06, 0.08, 0.1,  0.12};  // before the peaks meet on the ring
   std::uint32_t pairs_per_replica = 16;
+
+  ClosedParameters start() const {
+    return {.ring = ring,
+            .temperature = 2 * energy,
+            .scatterer_temperature = scatterer_temperature.value_or(2 * energy),
+            .relaxation_time = relaxation_time,
+            .observation_time = 0};
+  }
 };
 
 void declare(Options& options, Parameters& parameters) {
@@ -65,15 +70,13 @@ void declare(Options& options, Parameters& parameters) {
 
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const Parameters& parameters) {
-  validate(parameters.ring.scattering);
+  validate(parameters.start());
   if (const RuleProperties& rule = parameters.ring.scattering.rule.properties(); rule.changes_neighbour)
     throw UsageError(fmt::format(
         "--rule {} changes a neighbour, for which pairs of trajectories have no code. Choose another --rule.",
         rule.name));
-  const double of_scatterers = parameters.scatterer_temperature.value_or(0);
-  const double hottest = std::max({2 * parameters.energy, 2 * parameters.pulse_energy, of_scatterers});
+  const double hottest = std::max(parameters.start().hottest(), 2 * parameters.pulse_energy);
   const ClosedChain chain = parameters.ring.chain();
-  require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
   require_resolved(chain.cell_length / std::sqrt(hottest),
                    parameters.relaxation_time + parameters.times.back(),
                    "--cell-length, --relaxation-time, --times");
@@ -163,23 +166,15 @@ struct Tallies : TallySchema {
 std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies, const Replica& replica,
                             TallySums& sums) {
   const ClosedChain chain = parameters.ring.chain();
-  const double temperature = 2 * parameters.energy, relaxation = parameters.relaxation_time;
-  const StartTemperatures temperatures{temperature, parameters.scatterer_temperature.value_or(temperature)};
+  const ClosedParameters before = parameters.start();
   const std::uint32_t pairs = parameters.pairs_per_replica;
   std::uint64_t events = 0;
   for (std::uint32_t number = 0; number < pairs; ++number) {
-    const StreamKey key(replica.key.seed, replica.key.replica * pairs + number);
     const auto heartbeat = [&](double) { replica.heartbeat(static_cast<double>(number) / pairs); };
     heartbeat(0);  // a short pair may not call it itself
-    PhasePoint start = closed_chain_start(chain, temperatures, false, key);
-    if (relaxation > 0) {
-      ClosedDynamics relaxing(chain, start, relaxation, key);
-      NoObserver nobody;
-      simulate(relaxing, relaxation, nobody, heartbeat);
-      events += relaxing.events();
-      start = relaxing.phase_point(relaxation);
-    }
-    PairDynamics pair(chain, start, with_pulse(start, parameters), parameters.times.back(), key);
+    const Replica own{StreamKey(replica.key.seed, replica.key.replica * pairs + number), heartbeat};
+    const auto [start, relaxation_events] = relaxed_start(before, own);
+    PairDynamics pair(chain, start, with_pulse(start, parameters), parameters.times.back(), own.key);
     const double injected = sum(energy_difference(pair, 0, chain)), total = energy(start) + injected;
     double error = 0;
     for (std::size_t k = 0; k < parameters.times.size(); ++k) {
@@ -191,7 +186,7 @@ std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies
     }
     sums[tallies.injected_energy] += injected / pairs;
     sums[tallies.sum_error] += error / pairs;
-    events += pair.events();
+    events += relaxation_events + pair.events();
   }
   return events;
 }
@@ -219,7 +214,7 @@ std::vector<double> ring_closed(const Records& records, const Tallies& tallies) 
 
 /// Whether the energy of the pulse exceeds five of its standard errors: otherwise a peak is noise.
 bool injected(const Records& records, const Tallies& tallies) {
-  const Estimate energy =
+  const Estimates energy =
       jackknife(records, [&](TallyMeans mean) { return std::vector{mean[tallies.injected_energy]}; });
   return !(energy.mean.front() <= 5 * energy.standard_error.front());
 }
@@ -235,27 +230,25 @@ Group spreading(const Tallies& tallies) {
   group.statistics(
       {{"ring_closed", "1", "1: both sides of the pulse have met opposite to it", {tallies.time}}},
       [=](const Records& records) {
-        return Estimate{ring_closed(records, tallies),
-                        std::vector(times.size(), std::numeric_limits<double>::quiet_NaN())};
+        return Estimates{ring_closed(records, tallies),
+                         std::vector(times.size(), std::numeric_limits<double>::quiet_NaN())};
       });
-  std::vector<Description> of_peak = MovingPeak::descriptions(tallies.time, "energy");
-  of_peak.push_back(
-      {"centre_share", "1", "Part of the injected energy in the central five cells", {tallies.time}});
-  of_peak.push_back({"odd_part",
-                     "energy",
-                     "Half of right minus left side: 0 by mirror symmetry",
-                     {tallies.time, distance}});
-  group.quantities(of_peak, [=](const Records& records) {
+  const std::vector<MovingPeak::Measured> measured = MovingPeak::quantities(tallies.time, distance, "energy");
+  std::vector<Description> descriptions;
+  for (const MovingPeak::Measured& each : measured) descriptions.push_back(each.what);
+  group.quantities(descriptions, [=](const Records& records) {
     PeakWindows windows = peak_windows(records, tallies.energy_difference, times.size());
     const std::vector<double> closed = ring_closed(records, tallies);
     const bool significant = injected(records, tallies);
     for (std::size_t k = 0; k < times.size(); ++k)
       if (closed[k] == 1 || !significant) windows[k].reset();
     return [=](TallyMeans mean) {
-      const MovingPeak peak(mean[tallies.energy_difference], times, windows);
-      std::vector<double> values = peak.values();
-      for (const auto& each : {peak.centre_shares(mean[tallies.injected_energy]), peak.odd_parts()})
+      const MovingPeak peak(mean[tallies.energy_difference], times, mean[tallies.injected_energy], windows);
+      std::vector<double> values;
+      for (const MovingPeak::Measured& quantity : measured) {
+        const std::vector<double> each = (peak.*quantity.values)();
         values.insert(values.end(), each.begin(), each.end());
+      }
       return values;
     };
   });

@@ -1,3 +1,4 @@
+// For the study "does the paper hold?" only (panel `momentum`); no figure of the paper needs it.
 /// Integrated heat current of a closed chain in the stationary state: Q, the integral over a time t of J_q =
 /// sum of u (u^2/2 - T), as a mean square per cell over all origins of time in a record and over replicas.
 ///
@@ -20,6 +21,7 @@
 #include "observables/heat_current/parameters.hpp"
 #include "sampling/closed_run.hpp"
 #include "statistics/fit.hpp"
+#include "statistics/log_grid.hpp"
 
 namespace {
 
@@ -86,9 +88,7 @@ struct Growth {
 
 std::vector<Group> variances(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
-  Axis middle{"middle", "time", "Geometric middle of two neighbouring times", {}};
-  for (std::size_t k = 0; k + 1 < times.size(); ++k)
-    middle.values.push_back(std::sqrt(times[k]) * std::sqrt(times[k + 1]));
+  const Axis middle{"middle", "time", "Geometric middle of two neighbouring times", geometric_middles(times)};
   const double T = parameters.temperature, length = parameters.ring.cell_length;
   const auto fitted = [=, from = parameters.fit_from * (1 - 1e-9)](TallyMeans mean) {
     const double unit = std::sqrt(T) / length;  // of the times

@@ -58,7 +58,11 @@ struct Reading {
   }
 };
 
-std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
+/// Crossings in all replicas from which a kurtosis and its error are estimated: of fewer, few have most of
+/// the sum of p^4, and the jackknife's error is too small.
+constexpr double enough_for_kurtosis = 1000;
+
+std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width, double duration,
                                   const std::vector<Regression>& by_bin) {
   const std::string units = "1/(time momentum)";
   const std::vector<Axis> bonds{tallies.bond}, bins{tallies.bond, tallies.momentum},
@@ -77,8 +81,20 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
                   all(bins, &Reading::flux));
   fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-", all(bonds, &Reading::jump));
   moments.quantity("square", halves, "momentum^2", "<p^2> by direction", all(halves, &Reading::square));
-  moments.quantity("kurtosis", halves, "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half",
-                   all(halves, &Reading::kurtosis));
+  moments.quantities(
+      {{"kurtosis", "1", "<p^4>/<p^2>^2 by direction, of 1000 crossings or more; 3 for a Gaussian half",
+        halves}},
+      [=, rates = all(halves, &Reading::rate),
+       kurtosis = all(halves, &Reading::kurtosis)](const Records& records) {
+        std::vector<double> crossings = rates(records.mean());
+        for (double& each : crossings) each *= duration * static_cast<double>(records.size());
+        return [=](TallyMeans mean) {
+          std::vector<double> values = kurtosis(mean);
+          for (std::size_t i = 0; i < values.size(); ++i)
+            if (crossings[i] < enough_for_kurtosis) values[i] = std::numeric_limits<double>::quiet_NaN();
+          return values;
+        };
+      });
   moments.quantity("crossings", "1/time", "Crossings of a bond, mean over bonds",
                    [=, rates = all(halves, &Reading::rate)](TallyMeans mean) {
                      const std::vector<double> each = rates(mean);
@@ -97,7 +113,9 @@ Study momentum_flux(const Parameters& parameters) {
   const BondTallies tallies(chain.cells, bins);
   return stationary_study(
       parameters, tallies, [=] { return BondCrossings(chain, window, bins); },
-      flux_and_shape(tallies, bins.width(), regressions_by_bin(tallies, chain, window, bins)), "crossings");
+      flux_and_shape(tallies, bins.width(), window.end - window.begin,
+                     regressions_by_bin(tallies, chain, window, bins)),
+      "crossings");
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ struct Reading {
     return slopes;
   }
 
-  /// Slope against ln t of y, given at the times `at`, over the times of number_grid from the first snapshot
-  /// on.
+  /// Slope against ln t of y, given at the times `at`, over the times of n from the first
+  /// snapshot on.
   double late_slope(std::span<const double> y, const std::vector<double>& at) const {
     const double first = grid.times.front() * (1 - 1e-9);  // slightly below a grid point
     const auto early = static_cast<std::size_t>(std::ranges::count_if(
@@ -101,8 +101,7 @@ struct Reading {
 };
 
 Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, double thermal) {
-  const Axis between{"time", "time", "Geometric middle of two neighbouring times",
-                     grid.number_grid.middles()};
+  const std::vector<double> between = geometric_middles(grid.number_times);
   const auto reading = [=](TallyMeans mean) { return Reading{mean, tallies, grid, thermal}; };
   Group group;
   group.quantity("weighted_momentum_density", {tallies.time, tallies.p}, "1",
@@ -115,10 +114,9 @@ Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, 
   group.quantity(
       "log_slope", "1", "Slope of n against ln t from the first of --times on",
       [=](TallyMeans mean) { return reading(mean).late_slope(mean[tallies.number], grid.number_times); });
-  group.quantity("log_curvature", "1", "Slope of dn/d ln t against ln t over the same times; 0 if n ~ ln t",
-                 [=](TallyMeans mean) {
-                   return reading(mean).late_slope(reading(mean).number_slopes(), between.values);
-                 });
+  group.quantity(
+      "log_curvature", "1", "Slope of dn/d ln t against ln t over the same times; 0 if n ~ ln t",
+      [=](TallyMeans mean) { return reading(mean).late_slope(reading(mean).number_slopes(), between); });
   group.quantity("plateau", {tallies.time}, "1",
                  "|p| n_t(p) above the front, both signs: what dn/d ln t should be",
                  [=](TallyMeans mean) { return reading(mean).plateaus(); });

@@ -27,15 +27,23 @@ struct Parameters : ClosedParameters {
   Parameters() { observation_time = 200; }
   /// Time of a flight over one cell at the thermal speed.
   double thermal_flight() const { return ring.cell_length / std::sqrt(temperature); }
-  LogGrid bins() const { return {1e-3 * thermal_flight(), decades, bins_per_decade}; }
+  /// From a time on that no particle is fast enough for: 1e-3 flights at the higher one of both temperatures.
+  /// The last bin, which is not shown, has all times beyond the others.
+  LogGrid bins() const {
+    return {1e-3 * ring.cell_length / std::sqrt(hottest()), decades + 1. / bins_per_decade, bins_per_decade};
+  }
 };
 
 struct Tallies : ClosedTallies {
-  Axis tau;
-  Tally count = tally("count", {tau}, "1", "Waiting times in a bin");
-  Tally log_sum = tally("log_sum", {tau}, "1", "Sum of ln tau in a bin");
+  Axis tau, bin;
+  Tally count = tally("count", {bin}, "1", "Waiting times in a bin");
+  Tally log_sum = tally("log_sum", {bin}, "1", "Sum of ln tau in a bin");
 
-  explicit Tallies(const LogGrid& bins) : tau{"tau", "time", "Geometric middle of the bin", bins.middles()} {}
+  explicit Tallies(const LogGrid& bins)
+      : tau{"tau", "time", "Geometric middle of the bin", bins.middles()},
+        bin(numbered_axis("bin", "Bins of tau, and that of times beyond them", bins.intervals())) {
+    tau.values.pop_back();
+  }
 };
 
 /// Sum of the logarithms of positive numbers, computed from products, so that few logarithms are evaluated.
@@ -86,12 +94,12 @@ class WaitingTimes {
   std::vector<Bin> bins_;
 };
 
-/// Probability density in every bin.
+/// Probability density in every bin but the last, which counts in the total.
 std::vector<double> density(std::span<const double> counts, const std::vector<double>& edges) {
   double total = 0;
   for (const double count : counts) total += count;
   std::vector<double> result;
-  for (std::size_t bin = 0; bin < counts.size(); ++bin)
+  for (std::size_t bin = 0; bin + 1 < counts.size(); ++bin)
     result.push_back(counts[bin] / total / (edges[bin + 1] - edges[bin]));
   return result;
 }

@@ -15,11 +15,11 @@ namespace {
 
 void write(Hdf5Writer& file, const std::string& identity, double cpu_seconds,
            const FinishedReplicas& finished) {
-  std::vector<std::uint64_t> indices, events;
+  std::vector<std::int64_t> indices, events;
   std::vector<double> values;
   for (const auto& [index, one] : finished) {
-    indices.push_back(index);
-    events.push_back(one.events);
+    indices.push_back(static_cast<std::int64_t>(index));
+    events.push_back(static_cast<std::int64_t>(one.events));
     values.insert(values.end(), one.values.begin(), one.values.end());
   }
   const Axis replica{"replica", "1", "Finished replicas", {indices.begin(), indices.end()}};
@@ -27,7 +27,7 @@ void write(Hdf5Writer& file, const std::string& identity, double cpu_seconds,
   file.array("/replicas", {"index", "1", "Number of the replica, from 0", {replica}}, indices);
   file.array("/replicas", {"events", "1", "Events of the replica", {replica}}, events);
   file.array("/replicas", {"tallies", "1", "Sums of the replica", {replica, column}}, values);
-  file.array("/replicas", {"cpu_seconds", "s", "CPU time of all processes of the run", {}},
+  file.array("/replicas", {"cpu_seconds", "second", "CPU time of all processes of the run", {}},
              std::vector{cpu_seconds});
   file.attribute("/replicas", "identity", identity);
 }
@@ -44,8 +44,8 @@ void Checkpoint::save(const FinishedReplicas& finished) const {
 FinishedReplicas Checkpoint::load() try {
   const Hdf5Reader file(path);
   if (!file.has_attribute("/replicas", "identity", identity)) return {};
-  const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
-  const std::vector<std::uint64_t> events = file.counts("/replicas/events");
+  const std::vector<std::int64_t> indices = file.counts("/replicas/index");
+  const std::vector<std::int64_t> events = file.counts("/replicas/events");
   const std::vector<double> values = file.doubles("/replicas/tallies");
   if (indices.empty() || events.size() != indices.size() || values.size() % indices.size() != 0)
     throw NumericalError("the replicas differ in number");
@@ -53,7 +53,8 @@ FinishedReplicas Checkpoint::load() try {
   FinishedReplicas finished;
   for (std::size_t row = 0; row < indices.size(); ++row) {
     const auto part = std::span(values).subspan(row * width, width);
-    finished[indices[row]] = {{part.begin(), part.end()}, events[row]};
+    finished[static_cast<std::uint64_t>(indices[row])] = {{part.begin(), part.end()},
+                                                          static_cast<std::uint64_t>(events[row])};
   }
   Hdf5Writer again;
   const double spent = file.doubles("/replicas/cpu_seconds").front();

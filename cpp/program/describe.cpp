@@ -1,88 +1,102 @@
 #include "program/describe.hpp"
 
-#include <cmath>
-#include <nlohmann/json.hpp>  // compiles slowly: included here alone
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "program/stopping_rule.hpp"
 
 namespace lorentz {
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// JSON text of an object or of an array, whose members are JSON texts.
+using Members = std::vector<std::pair<std::string, std::string>>;
 
-void set_range(Json& schema, const char* type, const Range& range) {
-  schema["type"] = type;
-  const bool whole = schema["type"] == "integer";
-  const auto number = [&](double x) { return whole ? Json(static_cast<std::uint64_t>(x)) : Json(x); };
-  schema["minimum"] = number(range.low);
-  if (std::isfinite(range.high)) schema["maximum"] = number(range.high);
-}
-
-/// Allows a text besides numbers.
-void add_text(Json& schema, const std::string& pattern) {
-  schema["type"] = {schema["type"], "string"};
-  schema["pattern"] = "^(" + pattern + ")$";
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char character : text) {
+    if (character == '"' || character == '\\') result += '\\';
+    result += character;
+  }
+  return result + '"';
 }
 
-void set_values(Json& schema, const Option& option, double) { set_range(schema, "number", option.range); }
-template <std::unsigned_integral Whole>
-  requires(!std::same_as<Whole, bool>)
-void set_values(Json& schema, const Option& option, Whole) {
-  set_range(schema, "integer", option.range);
-}
-template <class Number>
-void set_values(Json& schema, const Option& option, std::optional<Number>) {
-  set_values(schema, option, Number{});
-  add_text(schema, option.words.front());
-}
-/// The program alone checks range and order of the numbers in a text.
-void set_values(Json& schema, const Option& option, const std::vector<double>&) {
-  set_range(schema, "number", option.range);
-  const std::string number = R"(-?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?)";
-  add_text(schema, number + "(," + number + ")*");
-}
-void set_values(Json& schema, const Option&, bool) { schema["type"] = "boolean"; }
-void set_values(Json& schema, const Option& option, const std::string&) {
-  if (option.words.empty())
-    schema["type"] = "string";
-  else
-    schema["enum"] = option.words;
+std::string array(const std::vector<std::string>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
 }
 
-Json schema_of(const Option& option) {
-  Json schema;
-  std::visit([&](const auto* variable) { set_values(schema, option, *variable); }, option.variable);
-  if (!option.required)
-    schema["default"] = std::visit([](const auto& value) { return Json(value); }, option.default_value);
-  schema["description"] = option.help;
-  if (!option.units.empty()) schema["units"] = option.units;
-  schema["affects_results"] = option.role == Option::Role::result;
-  schema["allowed"] = option.allowed();
-  return schema;
+std::string object(const Members& members) {
+  std::string text;
+  for (const auto& [name, value] : members)
+    text += fmt::format("{}\n{}: {}", text.empty() ? "" : ",", quoted(name), value);
+  return fmt::format("{{{}}}", text);
 }
 
-Json named(const auto& what) {
-  return {{"name", what.name}, {"units", what.units}, {"description", what.description}};
+std::string json(const AttributeValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text ? quoted(*text) : as_text(value);
+}
+
+/// Type and range of an option that is no choice. A text besides numbers has a pattern; the program alone
+/// checks range and order of the numbers in a list.
+Members values_of(const Option& option) {
+  if (option.is_flag()) return {{"type", quoted("boolean")}};
+  if (option.is_text()) return {{"type", quoted("string")}};
+  std::string pattern = option.words.empty() ? "" : option.words.front();
+  if (option.is_list()) {
+    const std::string number = R"(-?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?)";
+    pattern = fmt::format("{}(,{})*", number, number);
+  }
+  const std::string type = quoted(option.is_whole() ? "integer" : "number");
+  Members members{{"type", pattern.empty() ? type : array({type, quoted("string")})},
+                  {"minimum", option.end(option.range.low)},
+                  {"maximum", option.end(option.range.high)}};
+  if (!pattern.empty()) members.emplace_back("pattern", quoted("^(" + pattern + ")$"));
+  return members;
+}
+
+std::string schema_of(const Option& option) {
+  std::vector<std::string> choices;
+  for (const std::string& word : option.words) choices.push_back(quoted(word));
+  Members schema =
+      option.is_text() && !choices.empty() ? Members{{"enum", array(choices)}} : values_of(option);
+  if (!option.required) schema.emplace_back("default", json(option.default_value));
+  schema.emplace_back("description", quoted(option.help));
+  if (!option.units.empty()) schema.emplace_back("units", quoted(option.units));
+  schema.emplace_back("affects_results", option.role == Option::Role::result ? "true" : "false");
+  schema.emplace_back("allowed", quoted(option.allowed()));
+  return object(schema);
+}
+
+Members named(const auto& what) {
+  return {
+      {"name", quoted(what.name)}, {"units", quoted(what.units)}, {"description", quoted(what.description)}};
 }
 
 }  // namespace
 
 std::string describe(const Options& options, const std::string& description,
                      const std::vector<Description>& quantities) {
-  Json result{{"program", options.program()},
-              {"description", description},
-              {"options", {{"type", "object"}, {"additionalProperties", false}}},
-              {"quantities", Json::array()}};
+  Members result{{"program", quoted(options.program())}, {"description", quoted(description)}}, properties;
   for (const Option& option : options.all()) {
-    if (option.name == "--replicas") result["least_replicas"] = StoppingRule::least;
-    result["options"]["properties"][option.name.substr(2)] = schema_of(option);
+    if (option.name == "--replicas")
+      result.emplace_back("least_replicas", fmt::format("{}", StoppingRule::least));
+    properties.emplace_back(option.name.substr(2), schema_of(option));
   }
+  result.emplace_back("options", object({{"type", quoted("object")},
+                                         {"additionalProperties", "false"},
+                                         {"properties", object(properties)}}));
+  std::vector<std::string> described;
   for (const Description& what : quantities) {
-    Json& quantity = result["quantities"].emplace_back(named(what));
-    quantity["axes"] = Json::array();
-    for (const Axis& axis : what.axes) quantity["axes"].push_back(named(axis));
+    std::vector<std::string> axes;
+    for (const Axis& axis : what.axes) axes.push_back(object(named(axis)));
+    Members quantity = named(what);
+    quantity.emplace_back("axes", array(axes));
+    described.push_back(object(quantity));
   }
-  return result.dump(1) + '\n';
+  result.emplace_back("quantities", array(described));
+  return object(result) + '\n';
 }
 
 }  // namespace lorentz

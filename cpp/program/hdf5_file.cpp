@@ -61,9 +61,7 @@ Hdf5Handle type_of(const AttributeValue& value) {
     H5Tenum_insert(type, "TRUE", &yes);
     return {type, H5Tclose};
   }
-  const bool real = std::holds_alternative<double>(value),
-             count = std::holds_alternative<std::uint64_t>(value);
-  return {H5Tcopy(real ? H5T_IEEE_F64LE : count ? H5T_STD_U64LE : H5T_STD_I64LE), H5Tclose};
+  return {H5Tcopy(std::holds_alternative<double>(value) ? H5T_IEEE_F64LE : H5T_STD_I64LE), H5Tclose};
 }
 
 /// An empty text is a null byte, as no type has the size 0.
@@ -163,8 +161,8 @@ std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
   return read<double>(file_, dataset, H5T_IEEE_F64LE);
 }
 
-std::vector<std::uint64_t> Hdf5Reader::counts(const std::string& dataset) const {
-  return read<std::uint64_t>(file_, dataset, H5T_STD_U64LE);
+std::vector<std::int64_t> Hdf5Reader::counts(const std::string& dataset) const {
+  return read<std::int64_t>(file_, dataset, H5T_STD_I64LE);
 }
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name,

@@ -43,7 +43,7 @@ class Hdf5Writer {
 
   void group(const std::string& path);
 
-  /// Writes GROUP/NAME, of type double or uint64, with its units and description; groups along the path are
+  /// Writes GROUP/NAME, of type double or int64, with its units and description; groups along the path are
   /// created. Axes that axis() has written to the group are attached. Every NaN is written as the same one,
   /// because the sign of 0/0 depends on the processor.
   template <class Value>
@@ -51,7 +51,7 @@ class Hdf5Writer {
     if constexpr (std::is_same_v<Value, double>)
       std::ranges::replace_if(
           values, [](double x) { return x != x; }, std::numeric_limits<double>::quiet_NaN());
-    write(group, what, std::is_same_v<Value, double> ? H5T_IEEE_F64LE : H5T_STD_U64LE,
+    write(group, what, std::is_same_v<Value, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE,
           std::as_bytes(std::span(values)));
   }
 
@@ -84,7 +84,7 @@ class Hdf5Reader {
   explicit Hdf5Reader(const std::string& path);
 
   std::vector<double> doubles(const std::string& dataset) const;
-  std::vector<std::uint64_t> counts(const std::string& dataset) const;
+  std::vector<std::int64_t> counts(const std::string& dataset) const;
   bool has_attribute(const std::string& object, const std::string& name, const AttributeValue& value) const;
 
  private:

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "program/errors.hpp"
@@ -30,8 +31,10 @@ template <std::unsigned_integral Whole>
   requires(!std::same_as<Whole, bool>)
 bool read(const std::string& text, const Option& option, Whole& value) {
   const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  const auto number = static_cast<double>(value);
+  std::int64_t whole = 0;
+  const auto [stop, error] = std::from_chars(text.data(), end, whole);
+  value = static_cast<Whole>(whole);
+  const auto number = static_cast<double>(whole);
   return error == std::errc{} && stop == end && number >= option.range.low && number <= option.range.high;
 }
 
@@ -61,16 +64,20 @@ bool read(const std::string& text, const Option& option, std::string& value) {
   return option.words.empty() || std::ranges::find(option.words, text) != option.words.end();
 }
 
-/// A number is recorded as floating point where it may be a word, also if it is whole.
+AttributeValue recorded(const Option&, double value) { return value; }
+template <std::unsigned_integral Whole>
+AttributeValue recorded(const Option&, Whole value) {
+  return static_cast<std::int64_t>(value);
+}
 template <class Number>
 AttributeValue recorded(const Option& option, const std::optional<Number>& value) {
-  return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(option.words.front());
+  return value ? recorded(option, *value) : AttributeValue(option.words.front());
 }
-AttributeValue recorded(const Option&, std::uint32_t value) { return std::uint64_t{value}; }
 AttributeValue recorded(const Option&, const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(values, ","));
 }
-AttributeValue recorded(const Option&, const auto& value) { return value; }
+AttributeValue recorded(const Option&, bool value) { return value; }
+AttributeValue recorded(const Option&, const std::string& value) { return value; }
 
 /// The least number of characters to insert, delete or replace in one word to make the other.
 std::size_t edit_distance(const std::string& one, const std::string& other) {
@@ -101,83 +108,89 @@ AttributeValue Option::value() const {
   return std::visit([&](const auto* each) { return recorded(*this, *each); }, variable);
 }
 
+std::string Option::end(double limit) const {
+  if (!is_whole()) return fmt::format("{}", limit);
+  constexpr auto largest = std::numeric_limits<std::int64_t>::max();
+  return fmt::format("{}", limit < static_cast<double>(largest) ? static_cast<std::int64_t>(limit) : largest);
+}
+
 std::string Option::allowed() const {
   if (is_flag()) return "true or false";
-  if (std::holds_alternative<std::string*>(variable))
-    return words.empty() ? "text" : fmt::format("one of {}", fmt::join(words, ", "));
-  const std::string numbers = std::isfinite(range.high) ? fmt::format("from {} to {}", range.low, range.high)
-                                                        : fmt::format("at least {}", range.low);
-  if (std::holds_alternative<std::vector<double>*>(variable))
-    return fmt::format("numbers {}, ascending, separated by commas", numbers);
-  const bool real =
-      std::holds_alternative<double*>(variable) || std::holds_alternative<std::optional<double>*>(variable);
+  if (is_text()) return words.empty() ? "text" : fmt::format("one of {}", fmt::join(words, ", "));
+  const std::string numbers = fmt::format("from {} to {}", end(range.low), end(range.high));
+  if (is_list()) return fmt::format("numbers {}, ascending, separated by commas", numbers);
   const std::string word = words.empty() ? "" : ", or " + words.front();
-  return fmt::format("a {}number {}{}", real ? "" : "whole ", numbers, word);
+  return fmt::format("a {}number {}{}", is_whole() ? "whole " : "", numbers, word);
 }
 
-Options::Options(std::string program, const std::string& description)
-    : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
-  app_->set_version_flag("--version", std::string{}, "Print version and hash of the sources, then exit");
-  app_->get_formatter()->column_width(36);
-}
-
-Options::~Options() = default;
+Options::Options(std::string program, std::string description)
+    : program_(std::move(program)), description_(std::move(description)) {}
 
 void Options::add(Option option) {
   option.default_value = option.value();
-  const std::string units = option.units.empty() || option.units == "1" ? "" : " [" + option.units + ']',
-                    value = as_text(option.default_value), text = option.help + units,
-                    initial = option.required ? "required" : "default " + value;
-  if (option.is_flag())
-    app_->add_flag(option.name, text);
-  else
-    app_->add_option(option.name, CLI::callback_t{},
-                     value.empty() ? text : fmt::format("{} ({}; {})", text, option.allowed(), initial))
-        ->type_name("")
-        ->take_all();
   options_.push_back(std::move(option));
 }
 
-bool Options::given(const std::string& name) const { return app_->count(name) > 0; }
+const Option& Options::named(const std::string& name) const {
+  return *std::ranges::find(options_, name, &Option::name);
+}
+
+std::string Options::help() const {
+  const auto line = [](const std::string& name, const std::string& text) {
+    return fmt::format("  {:<33} {}\n", name, text);
+  };
+  std::string text = fmt::format("{}\nUsage: {} [OPTIONS]\n\nOptions:\n", description_, program_) +
+                     line("-h, --help", "Print options and quantities, then exit") +
+                     line("--version", "Print version and hash of the sources, then exit");
+  for (const Option& option : options_) {
+    std::string about = option.help;
+    if (!option.units.empty() && option.units != "1") about += fmt::format(" [{}]", option.units);
+    const std::string value = as_text(option.default_value);
+    if (!option.is_flag() && !value.empty())
+      about += fmt::format(" ({}; {})", option.allowed(), option.required ? "required" : "default " + value);
+    text += line(option.name, about);
+  }
+  return text + '\n';
+}
+
+void Options::refuse(const std::string& why) const {
+  throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
+}
+
+void Options::refuse_unknown(const std::string& word) const {
+  const std::string name = word.substr(0, word.find('='));
+  const auto distance = [&](const Option& option) { return edit_distance(name, option.name); };
+  const Option& nearest = *std::ranges::min_element(options_, {}, distance);
+  if (3 * distance(nearest) > name.size()) refuse(word + " is not an option");
+  throw UsageError(fmt::format("{} is not an option; did you mean {}?", name, nearest.name));
+}
+
+void Options::read(std::span<const char* const> words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string word = words[i], name = word.substr(0, word.find('='));
+    const auto option = std::ranges::find(options_, name, &Option::name);
+    if (option == options_.end()) refuse_unknown(word);
+    if (std::exchange(option->given, true)) refuse(name + " is given more than once");
+    if (option->role == Role::result) option_words_ += (option_words_.empty() ? "" : " ") + word;
+    std::string value = name == word ? "true" : word.substr(name.size() + 1);
+    if (name == word && !option->is_flag()) {
+      if (i + 1 == words.size() || std::string_view(words[i + 1]).starts_with("--"))
+        refuse(name + " needs a value");
+      value = words[++i];
+      if (option->role == Role::result) option_words_ += ' ' + value;
+    }
+    if (!option->read(value))
+      refuse(fmt::format("{}: '{}' cannot be used: it must be {}", name, value, option->allowed()));
+  }
+}
 
 std::optional<std::string> Options::parse(int argc, const char* const* argv, const std::string& version,
                                           const std::function<std::string()>& footer) {
-  app_->footer(footer);
-  const auto refuse = [this](const std::string& why) {
-    throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
-  };
-  try {
-    app_->parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    return app_->help();
-  } catch (const CLI::CallForVersion&) {
-    return version + '\n';
-  } catch (const CLI::ArgumentMismatch& error) {
-    const std::string what = error.what();
-    refuse(what.substr(0, what.find(':')) + " needs a value");
-  } catch (const CLI::ExtrasError&) {
-    const std::string word = app_->remaining().front(), name = word.substr(0, word.find('='));
-    const auto distance = [&](const Option& option) { return edit_distance(name, option.name); };
-    const Option& nearest = *std::ranges::min_element(options_, {}, distance);
-    if (3 * distance(nearest) > name.size()) refuse(word + " is not an option");
-    throw UsageError(fmt::format("{} is not an option; did you mean {}?", name, nearest.name));
-  } catch (const CLI::ParseError& error) {
-    refuse(error.what());
-  }
-  for (const Option& option : options_) {
-    const std::vector<std::string>& values = app_->get_option(option.name)->results();
-    if (values.size() > 1) refuse(option.name + " is given more than once");
-    if (!values.empty() && !option.read(values.front()))
-      refuse(fmt::format("{}: '{}' cannot be used: it must be {}", option.name, values.front(),
-                         option.allowed()));
-  }
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i], name = word.substr(0, word.find('='));
-    const auto option = std::ranges::find(options_, name, &Option::name);
-    if (option == options_.end() || option->role != Role::result) continue;
-    option_words_ += (option_words_.empty() ? "" : " ") + word;
-    if (name == word && !option->is_flag()) option_words_ += ' ' + std::string(argv[++i]);
-  }
+  const std::span words(argv + 1, argv + argc);
+  const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+  if (has("--help") || has("-h")) return help() + footer();
+  if (has("--version")) return version + '\n';
+  read(words);
   constexpr std::size_t most = 60'000;  // an attribute of an HDF5 file has at most 64 kB
   std::size_t of_parameters = 0;
   for (const Parameter& each : parameters()) of_parameters += each.name.size() + as_text(each.value).size();

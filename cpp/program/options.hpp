@@ -3,19 +3,15 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace lorentz {
 
-/// The range of a number, ends included.
+/// The range of a number, ends included. Whole numbers end at 2^63 - 1 where `high` is infinite.
 struct Range {
   double low = 0;
   double high = std::numeric_limits<double>::infinity();
@@ -25,7 +21,8 @@ struct Range {
 /// full precision, up to fourth powers of displacements.
 inline constexpr Range positive{1e-30, 1e30}, non_negative{0, 1e30};
 
-using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
+/// A value in a file. Whole numbers are signed, so that differences of them are right in any language.
+using AttributeValue = std::variant<bool, std::int64_t, double, std::string>;
 
 /// The value of an option as it is recorded in the output file.
 struct Parameter {
@@ -57,8 +54,17 @@ struct Option {
   Role role;
   bool required = false;           // has no default
   AttributeValue default_value{};  // set by Options
+  bool given = false;              // on the command line
 
-  bool is_flag() const { return std::holds_alternative<bool*>(variable); }
+  template <class... Types>
+  bool is_one_of() const {
+    return (std::holds_alternative<Types*>(variable) || ...);
+  }
+  bool is_flag() const { return is_one_of<bool>(); }
+  bool is_text() const { return is_one_of<std::string>(); }
+  bool is_list() const { return is_one_of<std::vector<double>>(); }
+  bool is_whole() const { return is_one_of<std::uint32_t, std::uint64_t, std::optional<std::uint32_t>>(); }
+  std::string end(double limit) const;  // an end of the range as text
   AttributeValue value() const;
   std::string allowed() const;  // values, for messages
 
@@ -71,8 +77,7 @@ class Options {
  public:
   using Role = Option::Role;
 
-  Options(std::string program, const std::string& description);
-  ~Options();
+  Options(std::string program, std::string description);
 
   /// Declare an option. Names have their leading dashes.
   void real(const std::string& name, double& value, Range range, const std::string& units,
@@ -114,7 +119,7 @@ class Options {
   }
 
   /// Whether the command line has the option.
-  bool given(const std::string& name) const;
+  bool given(const std::string& name) const { return named(name).given; }
   const std::string& program() const { return program_; }
   const std::vector<Option>& all() const { return options_; }
 
@@ -136,9 +141,13 @@ class Options {
 
  private:
   void add(Option option);
+  const Option& named(const std::string& name) const;
+  void read(std::span<const char* const> words);
+  std::string help() const;
+  [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void refuse_unknown(const std::string& word) const;
 
-  std::string program_, option_words_;
-  std::unique_ptr<CLI::App> app_;
+  std::string program_, description_, option_words_;
   std::vector<Option> options_;
 };
 

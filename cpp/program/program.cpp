@@ -60,7 +60,8 @@ void write_quantity(Hdf5Writer& file, const Quantity& quantity) {
   for (const Axis& axis : axes) file.axis(group, axis);
   file.array(group, {"mean", units, description, axes}, quantity.mean);
   if (quantity.control_variates)
-    file.attribute(group + "/mean", "control_variates", quantity.control_variates->used);
+    file.attribute(group + "/mean", "control_variates",
+                   static_cast<std::int64_t>(quantity.control_variates->used));
   if (quantity.count.empty()) {
     const auto* error = "Difference from a coarser discretisation, and rounding";
     file.array(group, {"discretisation_error", units, error, axes}, quantity.standard_error);
@@ -105,7 +106,7 @@ void Program::require_replaceable() const {
         output_));
 }
 
-ExitStatus Program::write(const Outcome& outcome) const {
+ExitStatus Program::write(const RunResult& result) const {
   constexpr std::array names{"reached", "not reached", "no target"};
   Hdf5Writer file;
   file.group("/parameters");
@@ -114,30 +115,30 @@ ExitStatus Program::write(const Outcome& outcome) const {
     file.attribute("/parameters", name, value);
     if (!units.empty() && units != "1") file.attribute("/parameter_units", name, units);
   }
-  for (const Quantity& quantity : outcome.results) write_quantity(file, quantity);
+  for (const Quantity& quantity : result.results) write_quantity(file, quantity);
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{5}},
+      {"format_version", std::int64_t{6}},
       {"program", options_.program()},
       {"option_words", options_.option_words()},
       {"source_hash", std::string(build_info.source_hash)},
       {"compiler", std::string(build_info.compiler)},
       {"flags", std::string(build_info.flags)},
       {"libraries", std::string(build_info.libraries)},
-      {"events", outcome.events},
-      {"target_quantity", outcome.target_quantity},
-      {"target_error", outcome.target_error},
-      {"achieved_error", outcome.achieved_error},
-      {"error_without_control_variates", outcome.plain_error},
-      {"converged", std::string(names.at(static_cast<std::size_t>(outcome.convergence)))},
+      {"events", static_cast<std::int64_t>(result.events)},
+      {"target_quantity", result.target_quantity},
+      {"target_error", result.target_error},
+      {"achieved_error", result.achieved_error},
+      {"error_without_control_variates", result.plain_error},
+      {"converged", std::string(names.at(static_cast<std::size_t>(result.convergence)))},
   };
   for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
   file.attribute("/provenance", "digest", file.digest());
   write_atomically(output_, file.image());
-  const std::string spent = cost(elapsed(), outcome.former_seconds + cpu_seconds(), outcome.events);
+  const std::string spent = cost(elapsed(), result.former_seconds + cpu_seconds(), result.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));
-  return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
+  return result.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }
 
 int Program::run(int argc, char** argv, const std::function<std::vector<Description>()>& quantities,

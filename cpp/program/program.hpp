@@ -17,7 +17,7 @@ namespace lorentz {
 enum class Convergence { reached, not_reached, no_target };
 
 /// Results of a run, and their provenance in the output file.
-struct Outcome {
+struct RunResult {
   Results results{};
   std::uint64_t events = 0;
   std::string target_quantity{};
@@ -48,7 +48,7 @@ class Program {
           const std::function<ExitStatus()>& compute);
 
   /// Writes the output and the cost file. Throws UsageError.
-  ExitStatus write(const Outcome& outcome) const;
+  ExitStatus write(const RunResult& result) const;
 
  private:
   void require_replaceable() const;

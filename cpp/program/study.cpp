@@ -71,7 +71,7 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
                "mean that may be 0; 0: the mean");
   options.integer_or_word("--threads", threads_, {1, 4096}, "processors",
                           "Threads, on which no result depends; processors: one for each", runtime);
-  options.real("--checkpoint-interval", checkpoint_interval_, positive, "s",
+  options.real("--checkpoint-interval", checkpoint_interval_, positive, "second",
                "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
   options.flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
   const auto plan = [&] {
@@ -143,24 +143,24 @@ ExitStatus StudyProgram::compute() try {
   needed_ = target_error_ > 0 ? rule.next_look(0) : replicas_;
   for (std::uint64_t wanted = needed_;; wanted = rule.next_look(wanted)) {
     in_threads(std::min(threads, wanted), [&] { measure(wanted); });
-    Outcome outcome;
-    in_threads(1, [&] { outcome = estimate(wanted); });
-    const std::vector<double>& errors = quantity_named(outcome.results, study_.target).standard_error;
+    RunResult result;
+    in_threads(1, [&] { result = estimate(wanted); });
+    const std::vector<double>& errors = quantity_named(result.results, study_.target).standard_error;
     // Exactly 0: all replicas agree, so that more of them do not change the error.
     const bool constant = std::ranges::all_of(errors, [](double error) { return error == 0; });
     const bool last =
-        outcome.convergence != Convergence::not_reached || constant || rule.next_look(wanted) > rule.most;
-    const double excess = outcome.achieved_error / target_error_;
+        result.convergence != Convergence::not_reached || constant || rule.next_look(wanted) > rule.most;
+    const double excess = result.achieved_error / target_error_;
     if (!last && std::isfinite(excess)) {  // the error falls as the inverse square root of the number
       const double expected = static_cast<double>(wanted) * excess * excess;
       needed_ = std::max(rule.next_look(wanted),
                          static_cast<std::uint64_t>(std::min(expected, static_cast<double>(rule.most))));
     }
-    report(outcome, wanted);
+    report(result, wanted);
     if (!last) continue;
     if (study_.remarks)
-      for (const std::string& remark : study_.remarks(outcome.results)) program_.progress().say(remark);
-    const ExitStatus status = program_.write(outcome);
+      for (const std::string& remark : study_.remarks(result.results)) program_.progress().say(remark);
+    const ExitStatus status = program_.write(result);
     ::unlink(checkpoint_.path.c_str());
     return status;
   }
@@ -254,46 +254,46 @@ void StudyProgram::checkpoint_on_exit(const std::string& why) {
 }
 
 /// From the first replicas, which are finished. A resumed run may have others, of later batches.
-Outcome StudyProgram::estimate(std::uint64_t replicas) const {
+RunResult StudyProgram::estimate(std::uint64_t replicas) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Outcome outcome{.target_quantity = study_.target,
-                  .target_error = target_error_ > 0 ? target_error_ : none,
-                  .former_seconds = checkpoint_.former_seconds};
+  RunResult result{.target_quantity = study_.target,
+                   .target_error = target_error_ > 0 ? target_error_ : none,
+                   .former_seconds = checkpoint_.former_seconds};
   Records records(study_.tallies.width(), replicas);
   for (std::uint64_t index = 0; index < replicas; ++index) {
     records.append(finished_.at(index).values);
-    outcome.events += finished_.at(index).events;
+    result.events += finished_.at(index).events;
   }
   for (const Group& group : study_.groups)
-    for (Quantity& quantity : group.estimate(records)) outcome.results.push_back(std::move(quantity));
-  const Quantity& quantity = quantity_named(outcome.results, study_.target);
+    for (Quantity& quantity : group.estimate(records)) result.results.push_back(std::move(quantity));
+  const Quantity& quantity = quantity_named(result.results, study_.target);
   const std::size_t k = least_accurate(quantity);
   const auto relative_error = [&](const Results& results) {
     const Quantity& each = quantity_named(results, study_.target);
     const double mean = each.mean[k], error = each.standard_error[k];
     return error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
   };
-  outcome.achieved_error = relative_error(outcome.results);
-  outcome.plain_error =
+  result.achieved_error = relative_error(result.results);
+  result.plain_error =
       quantity.control_variates
           ? relative_error(group_of(study_.target).without_control_variates().estimate(records))
           : none;
   if (target_error_ == 0)
-    outcome.convergence = Convergence::no_target;
+    result.convergence = Convergence::no_target;
   else if (std::isfinite(quantity.mean[k]) &&
-           StoppingRule::reached(replicas, outcome.achieved_error / target_error_))
-    outcome.convergence = Convergence::reached;
-  return outcome;
+           StoppingRule::reached(replicas, result.achieved_error / target_error_))
+    result.convergence = Convergence::reached;
+  return result;
 }
 
 /// Reports the target quantity, and how uncertain its error is if the replicas are few.
-void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
-  const Quantity& quantity = quantity_named(outcome.results, study_.target);
+void StudyProgram::report(const RunResult& result, std::uint64_t replicas) {
+  const Quantity& quantity = quantity_named(result.results, study_.target);
   const std::size_t k = least_accurate(quantity);
   const double mean = quantity.mean[k], error = quantity.standard_error[k];
   const std::string name = quantity.mean.size() > 1 ? fmt::format("{}[{}]", study_.target, k) : study_.target;
   std::string line = fmt::format("{}: {} = {}", counted(replicas), name, with_error(mean, error));
-  if (outcome.convergence == Convergence::not_reached) line += ", not reached";
+  if (result.convergence == Convergence::not_reached) line += ", not reached";
   if (std::isnan(mean))
     line += ", not defined by these replicas";
   else if (target_error_ > 0 && error == 0)
@@ -309,7 +309,7 @@ void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
                                         counted(replicas),
                                         100 / std::sqrt(2.0 * static_cast<double>(replicas - 1))));
   std::size_t needed = 0;
-  for (const Quantity& each : outcome.results)
+  for (const Quantity& each : result.results)
     if (each.control_variates) needed = std::max(needed, each.control_variates->needed);
   if (replicas < needed)
     program_.progress().say(fmt::format(

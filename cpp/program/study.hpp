@@ -57,8 +57,8 @@ class StudyProgram {
   void show_progress();
   bool save(const std::string& prefix);
   void checkpoint_on_exit(const std::string& why);
-  Outcome estimate(std::uint64_t replicas) const;
-  void report(const Outcome& outcome, std::uint64_t replicas);
+  RunResult estimate(std::uint64_t replicas) const;
+  void report(const RunResult& result, std::uint64_t replicas);
 
   Program program_;
 

@@ -10,13 +10,11 @@
 namespace lorentz {
 namespace {
 
-ClosedDynamics start(const ClosedParameters& parameters, const StreamKey& key) {
+PhasePoint start(const ClosedParameters& parameters, const StreamKey& key) {
   const ClosedChain chain = parameters.chain();
-  if (parameters.fugacity)
-    return {chain, stationary_start(chain, parameters.stationary_measure(), key), parameters.end_time(), key};
+  if (parameters.fugacity) return stationary_start(chain, parameters.stationary_measure(), key);
   const StartTemperatures temperatures{parameters.temperature, parameters.scatterer_temperature};
-  return {chain, closed_chain_start(chain, temperatures, parameters.zero_total_momentum, key),
-          parameters.end_time(), key};
+  return closed_chain_start(chain, temperatures, parameters.zero_total_momentum, key);
 }
 
 /// 0 for no change at all, also if the scale is 0.
@@ -28,8 +26,8 @@ Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tall
                    const std::function<void(ClosedRun&, TallySums&)>& observe, std::vector<Group> groups,
                    const std::string& target) {
   Group& conservation = groups.emplace_back();
-  conservation.quantity(tallies, tallies.energy_drift);
-  conservation.quantity(tallies, tallies.momentum_drift);
+  conservation.quantity(tallies, tallies.energy_change);
+  conservation.quantity(tallies, tallies.momentum_change);
   const auto sample = [=](const Replica& replica, TallySums& sums) {
     ClosedRun run(parameters, replica);
     run.relax();
@@ -42,9 +40,20 @@ Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tall
 ClosedRun::ClosedRun(const ClosedParameters& parameters, const Replica& replica)
     : parameters_(parameters),
       replica_(replica),
-      chain_(start(parameters, replica.key)),
+      chain_(parameters.chain(), start(parameters, replica.key), parameters.end_time(), replica.key),
       start_(chain_.invariants()),
       longest_clock_(parameters.longest_clock()) {}
+
+std::pair<PhasePoint, std::uint64_t> relaxed_start(const ClosedParameters& parameters,
+                                                   const Replica& replica) {
+  PhasePoint point = start(parameters, replica.key);
+  const double end = parameters.relaxation_time;
+  if (end == 0) return {std::move(point), 0};
+  ClosedDynamics chain(parameters.chain(), point, end, replica.key);  // a ClosedRun would sum its invariants
+  NoObserver nobody;
+  simulate(chain, end, nobody, replica.heartbeat);
+  return {chain.phase_point(end), chain.events()};
+}
 
 double ClosedRun::momentum_control() const {
   const double mean = parameters_.mean_square_momentum(), momentum = start_.momentum;
@@ -53,8 +62,8 @@ double ClosedRun::momentum_control() const {
 
 std::uint64_t ClosedRun::finish(const ClosedTallies& tallies, TallySums& sums) const {
   const Invariants end = chain_.invariants();
-  sums[tallies.energy_drift] = relative(end.energy - start_.energy, start_.energy);
-  sums[tallies.momentum_drift] =
+  sums[tallies.energy_change] = relative(end.energy - start_.energy, start_.energy);
+  sums[tallies.momentum_change] =
       relative(end.momentum - start_.momentum, std::max(start_.momentum_scale, end.momentum_scale));
   return chain_.events();
 }

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/closed_dynamics.hpp"
@@ -18,10 +19,10 @@ namespace lorentz {
 /// conserve is NaN. The scale of the momentum's error is the larger one of sum |p| + sum |P| at the start and
 /// at the end, because scatterers may start at rest and heavy ones acquire large momenta of both signs.
 struct ClosedTallies : TallySchema {
-  ScalarTally energy_drift =
-      tally("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy");
-  ScalarTally momentum_drift =
-      tally("momentum_drift", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|");
+  ScalarTally energy_change =
+      tally("energy_change", "1", "Mean over replicas of |change of total energy| / total energy");
+  ScalarTally momentum_change = tally(
+      "momentum_change", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|");
 };
 
 /// Simulation of one replica of a closed chain: relaxation, observation, conservation check.
@@ -82,6 +83,11 @@ class ClosedRun {
   double longest_clock_;  // 2^32 flights at the speed of the hottest particles
   double clock_start_ = 0;
 };
+
+/// State at the end of the relaxation, and the number of events until then. Without relaxation the state is
+/// that of the start, digit by digit.
+std::pair<PhasePoint, std::uint64_t> relaxed_start(const ClosedParameters& parameters,
+                                                   const Replica& replica);
 
 /// Study of a closed chain: every replica relaxes, `observe` takes the run through its observation and fills
 /// the tallies, and the conservation errors are added. The parameters are valid.

@@ -37,12 +37,13 @@ double smallest_p_value(const Records& records, const Columns& columns, std::siz
 
 }  // namespace
 
-Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
+Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain) {
   Group group;
   const std::vector<Description> descriptions{
-      {"drift_p_value", "1", "p-value of no drift of currents, temperatures and energy"},
+      {"stationarity_p_value", "1", "p-value of no change of currents, temperatures and energy"},
       {"particle_gain", "1", "Particles that enter minus those that leave, over those that enter"},
-      {"stationary", "1", "1: drift_p_value above 1e-4, |particle_gain| within 4e-3; nan: not tested"}};
+      {"stationary", "1",
+       "1: stationarity_p_value above 1e-4, |particle_gain| within 4e-3; nan: not tested"}};
   group.statistics(descriptions, [=](const Records& records) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Columns controls = columns_of({tallies.injection});
@@ -52,13 +53,13 @@ Group stationarity(const DriftTallies& tallies, const OpenChain& chain) {
                  of_energy = smallest_p_value(records, columns_of({tallies.energy}), 0);
     // Half of the level for each, NaN left out.
     const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);
-    const Estimate gain = jackknife(records, [=](TallyMeans mean) {
+    const Estimates gain = jackknife(records, [=](TallyMeans mean) {
       return std::vector{mean[tallies.particles] / (chain.left.rate + chain.right.rate)};
     });
     const double share = gain.mean.front(), error = gain.standard_error.front();
     const bool tested = !std::isnan(p_value) && error <= tolerated_gain,
                stationary = p_value > level && std::abs(share) - 3 * error <= tolerated_gain;
-    return Estimate{{p_value, share, tested ? static_cast<double>(stationary) : none}, {none, error, none}};
+    return Estimates{{p_value, share, tested ? static_cast<double>(stationary) : none}, {none, error, none}};
   });
   return group;
 }
@@ -70,11 +71,11 @@ std::vector<std::string> remarks_on_stationarity(const Results& results) {
         "not tested whether stationary: too few replicas or injections; choose more --replicas, or a longer "
         "--observation-time"};
   if (stationary == 1) return {};  // 0, 1 or NaN
-  return {
-      fmt::format("not stationary: the p-value of no drift is {:.1g}, and the number of particles changes by "
-                  "{:+.2g} of those injected; choose a longer --relaxation-time",
-                  quantity_named(results, "drift_p_value").mean.front(),
-                  quantity_named(results, "particle_gain").mean.front())};
+  return {fmt::format(
+      "not stationary: the p-value of no change is {:.1g}, and the number of particles changes by "
+      "{:+.2g} of those injected; choose a longer --relaxation-time",
+      quantity_named(results, "stationarity_p_value").mean.front(),
+      quantity_named(results, "particle_gain").mean.front())};
 }
 
 }  // namespace lorentz

@@ -21,27 +21,31 @@ namespace lorentz {
 /// Differences that are 0 on average in a stationary state [eq. 50]: of the second half of the window minus
 /// the first, and the energy that the chain gains. The particles that it gains tend to 0 as 1/t only, because
 /// slow ones accumulate [eq. 25]; rates of crossings are too low by about this number.
-struct DriftTallies {
+struct HalfDifferenceTallies {
   Axis scatterer{"scatterer", "1", "First, middle, last", {0, 1, 2}};
   ScalarTally energy_current, particle_current, energy, particles;
   Tally temperature, injection;
 
-  explicit DriftTallies(TallySchema& schema)
-      : energy_current(schema.tally("energy_current_drift", "energy/time", "Change of J_U")),
-        particle_current(schema.tally("particle_current_drift", "1/time", "Change of J_n")),
+  explicit HalfDifferenceTallies(TallySchema& schema)
+      : energy_current(schema.tally("energy_current_difference", "energy/time",
+                                    "Second half of the window minus first of J_U")),
+        particle_current(schema.tally("particle_current_difference", "1/time",
+                                      "Second half of the window minus first of J_n")),
         energy(schema.tally("energy_gain", "energy/time", "Energy that enters minus energy that leaves")),
         particles(schema.tally("particle_gain", "1/time", "Particles that enter minus those that leave")),
-        temperature(schema.tally("temperature_drift", {scatterer}, "temperature", "Change of <P^2>/M")),
-        injection(schema.tally("injection_drift", {InjectionControls::axis()}, "1",
-                               "Change of the numbers, momenta and energies injected; mean 0")) {}
+        temperature(schema.tally("temperature_difference", {scatterer}, "temperature",
+                                 "Second half of the window minus first of <P^2>/M")),
+        injection(schema.tally(
+            "injection_difference", {InjectionControls::axis()}, "1",
+            "Second half of the window minus first of the numbers, momenta and energies injected; mean 0")) {}
 
   Columns halves() const { return columns_of({energy_current, particle_current, temperature}); }
 };
 
-/// Observer that fills DriftTallies.
-class Drift {
+/// Observer that fills HalfDifferenceTallies.
+class HalfDifferences {
  public:
-  Drift(const OpenChain& chain, const Window& window)
+  HalfDifferences(const OpenChain& chain, const Window& window)
       : chain_(chain),
         window_(window),
         halves_(window.begin, window.end, 2),
@@ -69,7 +73,7 @@ class Drift {
     }
   }
 
-  void record(const DriftTallies& tallies, TallySums& sums) const {
+  void record(const HalfDifferenceTallies& tallies, TallySums& sums) const {
     const double half = halves_.length();
     sums[tallies.energy_current] = (openings_[1].energy - openings_[0].energy) / half;
     sums[tallies.particle_current] = (openings_[1].particles - openings_[0].particles) / half;
@@ -100,50 +104,50 @@ class Drift {
   double energy_gain_ = 0, particle_gain_ = 0;
 };
 
-/// Quantities `drift_p_value`, `particle_gain`, as a share of the particles injected, and `stationary`: 1 if
-/// the p-value exceeds 1e-4, so that the test rejects one stationary run in ten thousand [eq. 51], and the
-/// gain, of either sign, does not exceed 4e-3, which goes with a bias of kappa of up to 2 %, by more than
-/// three of its standard errors; NaN if one of them is unknown, or this error above 4e-3, with which the gain
-/// could not be seen.
-Group stationarity(const DriftTallies& tallies, const OpenChain& chain);
+/// Quantities `stationarity_p_value`, `particle_gain`, as a share of the particles injected, and
+/// `stationary`: 1 if the p-value exceeds 1e-4, so that the test rejects one stationary run in ten thousand
+/// [eq. 51], and the gain, of either sign, does not exceed 4e-3, which goes with a bias of kappa of up to 2
+/// %, by more than three of its standard errors; NaN if one of them is unknown, or this error above 4e-3,
+/// with which the gain could not be seen.
+Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain);
 
 /// Line that restricts the meaning of results that are not stationary, with the remedy; none if they are.
 std::vector<std::string> remarks_on_stationarity(const Results& results);
 
 /// Tallies of an observable with those of the test.
 template <class Tallies>
-struct WithDrift : Tallies {
-  DriftTallies drift;
-  explicit WithDrift(const Tallies& tallies) : Tallies(tallies), drift(*this) {}
+struct WithHalfDifferences : Tallies {
+  HalfDifferenceTallies half_differences;
+  explicit WithHalfDifferences(const Tallies& tallies) : Tallies(tallies), half_differences(*this) {}
 };
 
 /// An observer of the stationary state and that of the test.
 template <class Observer>
-struct ObserverWithDrift {
+struct ObserverWithHalfDifferences {
   Observer observer;
-  Drift drift;
+  HalfDifferences half_differences;
 
   [[gnu::always_inline]] void on_scatterer(std::uint32_t cell, double before, double time) {
     notify_scatterer(observer, cell, before, time);
-    drift.on_scatterer(cell, before, time);
+    half_differences.on_scatterer(cell, before, time);
   }
   [[gnu::always_inline]] void on_flight(const Path& path) { notify_flight(observer, path); }
   void on_injection(End end, double time, double u) {
     observer.on_injection(end, time, u);
-    drift.on_injection(end, time, u);
+    half_differences.on_injection(end, time, u);
   }
   void on_exit(End end, double time, double u) {
     if constexpr (requires { observer.on_exit(end, time, u); }) observer.on_exit(end, time, u);
-    drift.on_exit(end, time, u);
+    half_differences.on_exit(end, time, u);
   }
   void finish(const std::vector<double>& scatterers, double end_time) {
     if constexpr (requires { observer.finish(scatterers, end_time); }) observer.finish(scatterers, end_time);
-    drift.finish(scatterers, end_time);
+    half_differences.finish(scatterers, end_time);
   }
   template <class Tallies>
-  void record(const WithDrift<Tallies>& tallies, TallySums& sums) const {
+  void record(const WithHalfDifferences<Tallies>& tallies, TallySums& sums) const {
     observer.record(tallies, sums);
-    drift.record(tallies.drift, sums);
+    half_differences.record(tallies.half_differences, sums);
   }
 };
 
@@ -153,9 +157,11 @@ Study stationary_study(const StationaryParameters& parameters, const Tallies& ta
                        const MakeObserver& make_observer, std::vector<Group> groups,
                        const std::string& target) {
   const Window window = parameters.window();
-  const WithDrift<Tallies> all(tallies);
-  groups.push_back(stationarity(all.drift, parameters.chain()));
-  const auto make = [=] { return ObserverWithDrift{make_observer(), Drift(parameters.chain(), window)}; };
+  const WithHalfDifferences<Tallies> all(tallies);
+  groups.push_back(stationarity(all.half_differences, parameters.chain()));
+  const auto make = [=] {
+    return ObserverWithHalfDifferences{make_observer(), HalfDifferences(parameters.chain(), window)};
+  };
   Study study = open_study(parameters, window, all, make, std::move(groups), target);
   study.remarks = remarks_on_stationarity;
   return study;

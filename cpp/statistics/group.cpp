@@ -18,15 +18,15 @@ std::size_t size_of(const std::vector<Description>& descriptions) {
 }
 
 /// Appends the described quantities, whose values follow one another from `at` on, which is moved past them.
-void append(Results& results, const std::vector<Description>& what, const Estimate& estimate, std::size_t& at,
-            std::uint64_t replicas, const std::optional<ControlVariates>& control_variates) {
+void append(Results& results, const std::vector<Description>& what, const Estimates& estimate,
+            std::size_t& at, std::int64_t replicas, const std::optional<ControlVariates>& control_variates) {
   for (const Description& each : what) {
     const auto begin = static_cast<std::ptrdiff_t>(at),
                end = begin + static_cast<std::ptrdiff_t>(each.size());
     results.push_back({each,
                        {estimate.mean.begin() + begin, estimate.mean.begin() + end},
                        {estimate.standard_error.begin() + begin, estimate.standard_error.begin() + end},
-                       std::vector<std::uint64_t>(each.size(), replicas),
+                       std::vector<std::int64_t>(each.size(), replicas),
                        control_variates});
     at += each.size();
   }
@@ -38,10 +38,10 @@ const Quantity& quantity_named(const Results& results, std::string_view name) {
   return *std::ranges::find(results, name, [](const Quantity& each) { return each.what.name; });
 }
 
-Estimate jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
+Estimates jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
   const std::vector<double> mean = records.mean();
   const auto replicas = static_cast<double>(records.size());
-  Estimate estimate{f(mean), {}};
+  Estimates estimate{f(mean), {}};
   const std::size_t quantities = estimate.mean.size();
   if (records.size() < 2) {
     estimate.standard_error.assign(quantities, std::numeric_limits<double>::quiet_NaN());
@@ -102,7 +102,7 @@ void Group::quantities(const std::vector<Description>& descriptions,
 }
 
 void Group::statistics(const std::vector<Description>& descriptions,
-                       std::function<Estimate(const Records&)> estimate) {
+                       std::function<Estimates(const Records&)> estimate) {
   statistics_.push_back({descriptions, std::move(estimate)});
 }
 
@@ -121,7 +121,7 @@ Results Group::estimate(const Records& measured) const {
 
   std::vector<Array> formulas;
   for (const auto& part : formulas_) formulas.push_back(part.of(records));
-  const Estimate all = jackknife(records, [&](TallyMeans mean) {
+  const Estimates all = jackknife(records, [&](TallyMeans mean) {
     std::vector<double> values;
     for (std::size_t i = 0; i < formulas.size(); ++i) {
       const std::vector<double> more = formulas[i](mean);
@@ -132,12 +132,13 @@ Results Group::estimate(const Records& measured) const {
     }
     return values;
   });
+  const auto replicas = static_cast<std::int64_t>(records.size());
   Results results;
   std::size_t at = 0;
-  for (const auto& part : formulas_) append(results, part.what, all, at, records.size(), control_variates);
+  for (const auto& part : formulas_) append(results, part.what, all, at, replicas, control_variates);
   for (const auto& part : statistics_) {
     at = 0;
-    append(results, part.what, part.of(records), at, records.size(), control_variates);
+    append(results, part.what, part.of(records), at, replicas, control_variates);
   }
   return results;
 }

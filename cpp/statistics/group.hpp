@@ -19,11 +19,11 @@ struct ControlVariates {
   std::size_t needed = 0;
 };
 
-/// Estimate of a described array.
+/// Estimates of a described array.
 struct Quantity {
   Description what;
   std::vector<double> mean, standard_error;  // 0: all replicas agree; if computed: discretisation error
-  std::vector<std::uint64_t> count{};        // replicas that contribute; empty if computed
+  std::vector<std::int64_t> count{};         // replicas that contribute; empty if computed
   std::optional<ControlVariates> control_variates{};
 };
 
@@ -33,7 +33,7 @@ using Results = std::vector<Quantity>;
 const Quantity& quantity_named(const Results& results, std::string_view name);
 
 /// Values and their standard errors, of the same length. An undefined error is NaN.
-struct Estimate {
+struct Estimates {
   std::vector<double> mean;
   std::vector<double> standard_error;
 };
@@ -42,7 +42,7 @@ struct Estimate {
 /// 586 (1981)), se^2 = (R-1)/R sum_r (f_(r) - mean of f_(r))^2 [eq. 49]. Valid for independent replicas and
 /// smooth f. The bias of f, of order 1/R, is not corrected; se^2 is biased upwards. With fewer than two
 /// replicas the error is NaN.
-Estimate jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f);
+Estimates jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f);
 
 /// Quantities that are estimated together: from one preparation of the records, by one jackknife. Their
 /// descriptions exist before any record does (--describe).
@@ -76,7 +76,7 @@ class Group {
 
   /// Quantities with their own errors instead of those of the jackknife, one after another.
   void statistics(const std::vector<Description>& descriptions,
-                  std::function<Estimate(const Records&)> estimate);
+                  std::function<Estimates(const Records&)> estimate);
 
   std::vector<Description> descriptions() const;
 
@@ -98,7 +98,7 @@ class Group {
   };
   Prepare prepare_;
   std::vector<Part<Array>> formulas_;
-  std::vector<Part<Estimate>> statistics_;
+  std::vector<Part<Estimates>> statistics_;
 };
 
 /// Formula of a quantity that is the mean of a tally divided by `divisor`.

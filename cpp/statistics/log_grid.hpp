@@ -10,6 +10,14 @@
 
 namespace lorentz {
 
+/// Geometric means of neighbouring points, where slopes between them belong.
+inline std::vector<double> geometric_middles(const std::vector<double>& points) {
+  std::vector<double> middles;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+    middles.push_back(std::sqrt(points[k]) * std::sqrt(points[k + 1]));
+  return middles;
+}
+
 /// Points in geometric progression from `first` upwards.
 class LogGrid {
  public:

@@ -26,6 +26,13 @@ Peak peak_in(const std::optional<PeakWindow>& window, const std::vector<double>&
   return window ? fit_peak(profile, *window) : Peak{none, none};
 }
 
+/// Middles of neighbouring times, where speeds between them belong.
+Axis middles(const std::vector<double>& times) {
+  Axis axis{"middle", "time", "Middle of two neighbouring times", {}};
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) axis.values.push_back(0.5 * (times[k] + times[k + 1]));
+  return axis;
+}
+
 }  // namespace
 
 PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t times) {
@@ -33,7 +40,7 @@ PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t tim
   PeakWindows windows;
   const std::vector<double> mean = records.mean();
   for (const std::vector<double>& side : sides(mean)) windows.push_back(peak_window(side));
-  const Estimate heights = jackknife(records, [&](TallyMeans row) {
+  const Estimates heights = jackknife(records, [&](TallyMeans row) {
     const std::vector<std::vector<double>> folded = sides(row);
     std::vector<double> values;
     for (std::size_t k = 0; k < times; ++k) values.push_back(peak_in(windows[k], folded[k]).height);
@@ -58,49 +65,39 @@ std::vector<double> octaves(const std::vector<double>& times) {
   return ends;
 }
 
-Axis middles(const std::vector<double>& times) {
-  Axis axis{"middle", "time", "Middle of two neighbouring times", {}};
-  for (std::size_t k = 0; k + 1 < times.size(); ++k) axis.values.push_back(0.5 * (times[k] + times[k + 1]));
-  return axis;
-}
-
-std::vector<double> speeds(const std::vector<double>& times, const std::vector<double>& positions) {
-  std::vector<double> values;
-  for (std::size_t k = 0; k + 1 < times.size(); ++k)
-    values.push_back((positions[k + 1] - positions[k]) / (times[k + 1] - times[k]));
-  return values;
-}
-
-std::vector<Description> MovingPeak::descriptions(const Axis& time, const std::string& units) {
+std::vector<MovingPeak::Measured> MovingPeak::quantities(const Axis& time, const Axis& distance,
+                                                         const std::string& units) {
   const std::vector<double> ends = octaves(time.values);
   const Axis until{"until",
                    "time",
                    "Last time of an octave, which begins where the one before it ends",
                    {ends.begin() + 1, ends.end()}};
   const Axis from{"from", "time", "First time of the fit", {time.values.begin(), time.values.end() - 1}};
-  return {{"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
-          {"peak", units, "Height of the moving peak, by a fit of exp(cubic) above half of it", {time}},
-          {"peak_speed",
-           "1/time",
-           "Cells per time by which peak_position moves between two times",
-           {middles(time.values)}},
-          {"local_damping_exponent", "1", "Minus the slope of ln peak against ln t over an octave", {until}},
-          {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
-          {"damping_exponent", "1", "The same over all times that have a peak"}};
+  const Axis middle = middles(time.values);
+  return {
+      {{"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
+       &MovingPeak::positions},
+      {{"peak", units, "Height of the moving peak, by a fit of exp(cubic) above half of it", {time}},
+       &MovingPeak::heights},
+      {{"peak_speed", "1/time", "Cells per time by which peak_position moves between two times", {middle}},
+       &MovingPeak::speeds},
+      {{"local_damping_exponent", "1", "Minus the slope of ln peak against ln t over an octave", {until}},
+       &MovingPeak::exponents_by_octave},
+      {{"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
+       &MovingPeak::exponents_from},
+      {{"damping_exponent", "1", "The same over all times that have a peak"}, &MovingPeak::exponent},
+      {{"centre_share", "1", "Part of the injected energy in the central five cells", {time}},
+       &MovingPeak::centre_shares},
+      {{"odd_part", units, "Half of right minus left side: 0 by mirror symmetry", {time, distance}},
+       &MovingPeak::odd_parts}};
 }
 
-std::vector<double> MovingPeak::values() const {
-  std::vector<double> all = positions_;
-  const std::vector<double> exponent{exponent_from(0)};
-  for (const std::vector<double>& each :
-       {heights_, speeds(times_, positions_), exponents_by_octave(), exponents_from(), exponent})
-    all.insert(all.end(), each.begin(), each.end());
-  return all;
-}
-
-MovingPeak::MovingPeak(std::span<const double> profiles, std::vector<double> times,
+MovingPeak::MovingPeak(std::span<const double> profiles, std::vector<double> times, double total,
                        const PeakWindows& windows)
-    : profiles_(profiles), times_(std::move(times)), sides_(folded_profiles(profiles, times_.size())) {
+    : profiles_(profiles),
+      times_(std::move(times)),
+      total_(total),
+      sides_(folded_profiles(profiles, times_.size())) {
   for (std::size_t k = 0; k < times_.size(); ++k) {
     const Peak peak = peak_in(windows[k], sides_[k]);
     positions_.push_back(peak.position);
@@ -108,10 +105,17 @@ MovingPeak::MovingPeak(std::span<const double> profiles, std::vector<double> tim
   }
 }
 
-std::vector<double> MovingPeak::centre_shares(double total) const {
+std::vector<double> MovingPeak::speeds() const {
+  std::vector<double> values;
+  for (std::size_t k = 0; k + 1 < times_.size(); ++k)
+    values.push_back((positions_[k + 1] - positions_[k]) / (times_[k + 1] - times_[k]));
+  return values;
+}
+
+std::vector<double> MovingPeak::centre_shares() const {
   std::vector<double> values;
   for (const std::vector<double>& side : sides_)
-    values.push_back((side[0] + 2 * (side[1] + side[2])) / total);
+    values.push_back((side[0] + 2 * (side[1] + side[2])) / total_);
   return values;
 }
 

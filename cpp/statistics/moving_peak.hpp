@@ -22,30 +22,29 @@ PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t tim
 /// has doublings (at least one), and the ends are the nearest of the times. The first is times.front().
 std::vector<double> octaves(const std::vector<double>& times);
 
-/// Middles of neighbouring times, where speeds between them belong.
-Axis middles(const std::vector<double>& times);
-
-/// Differences of neighbouring positions over those of the times.
-std::vector<double> speeds(const std::vector<double>& times, const std::vector<double>& positions);
-
 /// Moving peak of a mean profile that spreads on a ring. Arrays have one element per time, per pair of
 /// neighbouring times or per octave; NaN without a peak.
 class MovingPeak {
  public:
-  /// profiles: [time, cell], part of the mean record.
-  MovingPeak(std::span<const double> profiles, std::vector<double> times, const PeakWindows& windows);
+  /// profiles: [time, cell], part of the mean record; total: sum of a profile.
+  MovingPeak(std::span<const double> profiles, std::vector<double> times, double total,
+             const PeakWindows& windows);
 
-  /// What is measured of a moving peak: position and height, speed between two times, damping exponents over
-  /// octaves and other ranges of times. `units` are those of the profile.
-  static std::vector<Description> descriptions(const Axis& time, const std::string& units);
-  /// Their values, one after another.
-  std::vector<double> values() const;
+  /// A quantity and the function of the peak that gives its values.
+  struct Measured {
+    Description what;
+    std::vector<double> (MovingPeak::*values)() const;
+  };
+  /// All that is measured; `units` are those of the profile.
+  static std::vector<Measured> quantities(const Axis& time, const Axis& distance, const std::string& units);
 
   std::vector<double> positions() const { return positions_; }
   std::vector<double> heights() const { return heights_; }
-  std::vector<double> centre_shares(double total) const;  // part in the five central cells
-  std::vector<double> odd_parts() const;                  // [time, distance]
-  std::vector<double> exponents_from() const;             // fits from every time but the last on
+  std::vector<double> speeds() const;                                  // between neighbouring times
+  std::vector<double> centre_shares() const;                           // part in the five central cells
+  std::vector<double> odd_parts() const;                               // [time, distance]
+  std::vector<double> exponent() const { return {exponent_from(0)}; }  // a single number
+  std::vector<double> exponents_from() const;                          // fits from every time but the last on
 
   /// Fits over octaves. Between neighbouring times, heights that differ by the bias of the peak's fit, 1.3 %
   /// at the first times, would change the exponent by 0.06; over an octave of four times by less than 0.02.
@@ -61,6 +60,7 @@ class MovingPeak {
 
   std::span<const double> profiles_;
   std::vector<double> times_;
+  double total_;
   std::vector<std::vector<double>> sides_;  // folded profile at every time
   std::vector<double> positions_, heights_;
 };

@@ -72,7 +72,7 @@ claim("closed.spreading_with_drift", spreading, [1.8 + 0.1 * sigma for sigma in 
 claim("closed.spreading_without_drift", spreading, [1.4 + 0.1 * sigma for sigma in sigmas])
 found = of_runs("fig07_inset", alpha, lambda run: run.series == "random")
 claim("closed.random_directions", spreading, found)
-drift = {"fig07_inset": {"momentum_drift": lambda run: 10 ** (-3 - alpha(run))}}
+drift = {"fig07_inset": {"momentum_change": lambda run: 10 ** (-3 - alpha(run))}}
 found = [-4.8 - 0.1 * sigma for sigma in sigmas] + [-4.4 - 0.1 * sigma for sigma in sigmas]
 claim("closed.momentum_changes", drift, found)
 

@@ -19,7 +19,7 @@ from workflow.pipeline.plan import Plan, Run
 ROOT = Path(__file__).parents[2]
 T = TypeVar("T")
 
-GENERAL = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+GENERAL = {"cells": 5, "particles-per-cell": 3, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 NAMED: dict[str, dict[str, object]] = {
     "heat_current": {"cells": 20, "observation-time": 10, "times": "1,2,4", "fit-from": 1, "replicas": 4},
     "energy_pulse": {"cells": 21, "particles-per-cell": 20, "times": "0.01,0.014", "replicas": 4},

@@ -86,7 +86,9 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "end": np.arange(2.0),
         "half": np.array([-1.0, 1.0]),
         "x": np.array(positions.split(","), dtype=float) if positions else np.linspace(0, 1, cells + 1),
-        "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
+        **dict.fromkeys(
+            ("momentum", "scaled_momentum"), (np.arange(bins) + 0.5) * (2 * largest / bins) - largest
+        ),
         "distance": np.arange(1.0, cells // 2 + 1),
     }
 

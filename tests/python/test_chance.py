@@ -41,6 +41,7 @@ class Chain:
 
 DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs; every fourth is compared
 BINS_PER_DECADE, BINS = 10, 50  # bins of the waiting times
+MEANS = ("mu", "particle_energy", "scatterer_energy")  # over scatterings
 
 
 def waiting_time_edges(chain: Chain) -> np.ndarray:
@@ -59,10 +60,11 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     options |= dict(zip(names, noise.get(options.pop("rule"), (0, 0, 0)), strict=True))
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)
-    moments, scatterings, persistent, waits = np.split(rows, 2 * len(times) + np.arange(3), axis=1)
+    moments, scatterings, sums, waits = np.split(rows, 2 * len(times) + np.array([0, 1, 4]), axis=1)
     names = ("variance", "centre_of_mass_variance")
     measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 2), 2, 0), strict=True))
-    return measurements | {"scatterings": scatterings, "persistent": persistent, "waits": waits}
+    means = dict(zip(MEANS, np.moveaxis(sums[:, :, None], 1, 0), strict=True))
+    return measurements | means | {"scatterings": scatterings, "waits": waits}
 
 
 def average(sample: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -90,7 +92,7 @@ def measured(measure: Measure, chain: Chain) -> Measured:
             )
 
     add("displacement", ["variance", "centre_of_mass_variance"], EVERY, decades=DECADES)
-    add("persistence", ["mu"])
+    add("persistence", [*MEANS])
     add("waiting_time", ["density"])
     return measurements
 
@@ -98,9 +100,9 @@ def measured(measure: Measure, chain: Chain) -> Measured:
 def scores(measurements: Measured, chain: Chain) -> dict[str, np.ndarray]:
     """z-scores of all measurements against the reference simulator."""
     sample = reference(chain)
-    expected = {name: average(sample[name]) for name in measurements if name not in ("mu", "density")}
+    expected = {name: average(sample[name]) for name in measurements if name not in (*MEANS, "density")}
     often = sample["waits"].sum(axis=0) > 200  # often enough for a normal mean
-    expected["mu"] = ratio(sample["persistent"], sample["scatterings"])
+    expected |= {name: ratio(sample[name], sample["scatterings"]) for name in MEANS}
     widths = np.diff(waiting_time_edges(chain))
     density = ratio(sample["waits"], sample["scatterings"])
     expected["density"] = tuple((x / widths)[often] for x in density)

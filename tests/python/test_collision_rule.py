@@ -70,7 +70,7 @@ def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], ga
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8].
     Detected mistake: temperatures that are 2 % too high."""
     times = {"relaxation_time": 20, "observation_time": 100}
-    result = measure("steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **rule, replicas=64)
+    result = measure("steady_profile", cells=7, gamma=gamma, sigma=0.3, **times, **EQUAL, **rule, replicas=64)
     for name in ("temperature_scatterer", "temperature_particle"):
         assert score(result[name], 100) < 4, name
         assert score(result[name], 102) > 6, name

@@ -11,16 +11,16 @@ from workflow.pipeline.described import options_of_programs
 SEEDS, LEVEL = 50, 1e-3
 REPLICAS = 24
 
-OPEN = {"cells": 4, "relaxation_time": 0.5, "observation_time": 4}
+OPEN = {"cells": 5, "relaxation_time": 0.5, "observation_time": 4}
 EQUILIBRIUM = {"cells": 30, "observation_time": 64, "times": "1,2,4,8", "fit_from": 2}
 CASES: list[tuple[str, str, dict]] = [
     ("persistence", "mu", {"sigma": -0.8}),
     ("waiting_time", "exponent", {"sigma": 0.5, "observation_time": 50}),
     ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
     ("heat_current", "amplitude", EQUILIBRIUM),
-    ("steady_profile", "density_excess", OPEN | {"gamma": 1}),
+    ("steady_profile", "density_excess", OPEN | {"gamma": 1.3}),
     ("momentum_flux", "jump", OPEN | {"gamma": 0.3}),
-    ("particle_count", "log_slope", {"cells": 4, "times": "1,2,4"}),
+    ("particle_count", "log_slope", {"cells": 6, "times": "1,2.3,4.1"}),
     ("particle_count", "front_exponent", {"cells": 11, "cell_length": "1/N", "times": "20,60,180"}),
 ]
 

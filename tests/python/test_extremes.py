@@ -46,4 +46,4 @@ def test_smallest_and_largest_chains_conserve_energy_and_momentum(
 ) -> None:
     chain = {"cells": cells, "particles_per_cell": 1, "relaxation_time": 0, "observation_time": time}
     result = measure("persistence", **chain, replicas=2)
-    assert max(float(result[name].mean) for name in ("energy_drift", "momentum_drift")) < limit
+    assert max(float(result[name].mean) for name in ("energy_change", "momentum_change")) < limit

@@ -1,17 +1,28 @@
-"""Result files of every program: the described quantities with their units and axes, and the same bytes
-for any number of threads."""
+"""Result files of every program: the described quantities with their units and axes, types of all values, and
+the same bytes for any number of threads."""
 
 from pathlib import Path
+from typing import Any
 
 import h5py
 import pytest
 
-from tests.python.conftest import Program
+from tests.python.conftest import Measure, Program
+from workflow.lib.load import load
 from workflow.pipeline.described import described, options_of_programs
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
 PROVENANCE = {"format", "format_version", "program", "option_words", "source_hash", "compiler", "flags", "libraries", "events",
               "target_quantity", "target_error", "achieved_error", "error_without_control_variates", "converged", "digest"}  # fmt: skip
+
+
+TYPES = {"integer": int, "number": float, "boolean": bool, "string": str}
+
+
+def types(schema: dict[str, Any]) -> set[type]:
+    """Types that an option may have: an enum has words only."""
+    names = schema.get("type", "string")
+    return {TYPES[name] for name in ([names] if isinstance(names, str) else names)}
 
 
 def axes_of(dataset: h5py.Dataset) -> list[h5py.Dataset]:
@@ -46,6 +57,33 @@ def test_files_have_the_described_content_and_the_same_bytes_for_any_threads(
             assert kinds == (MEASURED if replicated else COMPUTED)
             for kind, dataset in ((kind, group[kind]) for kind in kinds):
                 assert dataset.shape == tuple(len(axis) for axis in axes_of(dataset))
-                assert dataset.dtype == ("uint64" if kind == "count" else "float64")
+                assert dataset.dtype == ("int64" if kind == "count" else "float64")
                 assert kind == "count" or dataset.attrs["units"] == group["mean"].attrs["units"]
         assert {*file["provenance"].attrs} == PROVENANCE
+        signed = {"int64", "float64", "bool"}
+        assert {file[group].attrs[key].dtype.name for group in ("parameters", "provenance") for key in file[group].attrs
+                if not isinstance(file[group].attrs[key], str | bytes)} <= signed | {"bytes"}  # fmt: skip
+    options = options_of_programs()[name]
+    for key, value in load(tmp_path / "1.h5").parameters.items():
+        assert type(value) in types(options[key.replace("_", "-")]), key
+
+
+def test_an_option_has_one_type_in_all_programs() -> None:
+    """Words besides numbers, as N, may differ."""
+    for name in {name for options in options_of_programs().values() for name in options}:
+        found = {
+            frozenset(types(options[name]) - {str})
+            for options in options_of_programs().values()
+            if name in options
+        }
+        assert len(found) == 1, name
+
+
+@pytest.mark.parametrize("name", ["conductivity", "boltzmann"])
+def test_a_number_has_its_type_where_a_word_may_be(measure: Measure, name: str) -> None:
+    """Detected mistakes: whole numbers are stored as floating point, or unsigned, so that 3 - 5 is 1.8e19."""
+    result = measure(name, cells=3, gamma=2)
+    cells, gamma = result.parameters["cells"], result.parameters["gamma"]
+    assert (cells - 5, type(cells), type(gamma)) == (-2, int, float)
+    counts = [quantity.count for quantity in result.quantities.values() if quantity.count is not None]
+    assert all((count - 100 < 0).all() for count in counts)

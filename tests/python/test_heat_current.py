@@ -9,9 +9,9 @@ import pytest
 from tests.python.conftest import ROOT, Measure, Program
 from workflow.lib.load import Quantity, Result
 from workflow.physics.sound import Chain
-from workflow.study.rings import tabulate
+from workflow.study.rings import gas, tabulate
 
-T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
+T, LENGTH, FUGACITY = 3.7, 0.6, 2.5
 ZETA = FUGACITY * LENGTH
 GAS = {"temperature": T, "cell_length": LENGTH, "fugacity": FUGACITY, "cells": 20}
 SHORT = {
@@ -130,6 +130,14 @@ def ring(
         "local_exponent": quantity(np.full(len(middle), power), of_exponent * error, middle=middle),
     }
     return Result(ROOT, parameters | options, {}, quantities)
+
+
+def test_a_gas_has_its_temperature_and_length() -> None:
+    """Detected mistakes: rings at T = 1 and 3, or with λ = 1 and 0.5 at one ζ, are one gas."""
+    gases = ({}, {"temperature": 3.0}, {"cell_length": 0.5, "fugacity": 1.6}, {"sigma": 0.3})
+    table = tabulate([ring([1, 3, 7], 0.01, **changed) for changed in gases])
+    assert len(table) == 4 * 3
+    assert len({gas(ring([1, 3], 0.01, **changed)) for changed in gases}) == 4
 
 
 def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:

@@ -103,7 +103,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (Path.unlink, " is missing"),
         (lambda path: path.write_bytes(path.read_bytes()[:3000]), " is damaged, or not a result file: "),
         (attribute("format", "another"), ": not a result of this project"),
-        (attribute("format_version", 2), ": format version 2, not 5; remake it with make figures"),
+        (attribute("format_version", 2), ": format version 2, not 6; remake it with make figures"),
     ],
 )
 def test_load_refuses_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
@@ -137,7 +137,7 @@ def test_an_edited_value_is_refused(path: Path, name: str) -> None:
     ("group", "name", "value"),
     [
         ("parameters", "sigma", 0.05),  # a default
-        ("parameters", "cells", np.uint64(4)),  # given
+        ("parameters", "cells", 4),  # given
         ("parameter_units", "relaxation_time", "energy"),
         ("provenance", "converged", "reached"),
         (f"{FLUX}/mean", "units", "energy"),

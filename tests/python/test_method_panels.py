@@ -20,7 +20,7 @@ def test_accuracy(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def chain(run: str, kappa: float, errors: tuple[float, float] = (0.02, 0.1), **options: Any) -> None:
         made = result(run, CHAIN | {"relaxation_time": 3.0, "observation_time": 10.0} | options, "conductivity", kappa=kappa,
-                      stationary=1.0, drift_p_value=0.5)  # fmt: skip
+                      stationary=1.0, stationarity_p_value=0.5)  # fmt: skip
         target = options.get("target_error", np.nan)
         made.provenance.update(
             achieved_error=errors[0], error_without_control_variates=errors[1], target_error=target
@@ -68,7 +68,7 @@ def test_stability() -> None:
     runs = []
     for rule, factor in (("elastic", 0.1), ("printed", 1.0)):
         for time in (1.0, 100.0):
-            drift = {"energy_drift": factor * time * 1e-16, "momentum_drift": factor * time * 3e-16}
+            drift = {"energy_change": factor * time * 1e-16, "momentum_change": factor * time * 3e-16}
             given = RING | {"sigma": 0.3, "rule": rule, "observation_time": time}
             runs.append(result(f"rounding_rule={rule}_{time}", given, **drift))
     baths = CHAIN | {

@@ -29,7 +29,7 @@ def test_displacement_begins_ballistically(measure: Measure) -> None:
     assert np.abs(result["local_slope"].mean - 2).max() < 0.01  # a few particles have collided by then
 
 
-FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1, "relaxation_time": 1}
+FEW = {"cells": 6, "particles_per_cell": 5, "observation_time": 20, "decades": 1, "relaxation_time": 1}
 
 
 def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
@@ -48,9 +48,9 @@ def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
         return float(abs(factor * reduced.mean() - plain.mean()) / of_mean)
 
     assert difference(1) < 4
-    # Detected mistake: the known mean square is that of the particles' momentum alone, 20 / (20 + 4 x 9) of
-    # the total.
-    assert difference(20 / 56) > 10
+    # Detected mistake: the known mean square is that of the particles' momentum alone, 5 / (5 + 9) of the
+    # total.
+    assert difference(5 / 14) > 10
     assert 8 * np.mean(plain_error**2) > 8 * 40 * np.mean(error**2)
 
 

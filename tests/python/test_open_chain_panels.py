@@ -123,7 +123,7 @@ def test_fig08() -> None:
     sizes = np.array([4, 8, 16, 32])
     runs = [
         result(f"{series}_cells={n}", CHAIN | {"cells": int(n), "gamma": gamma}, "conductivity", kappa=kappa(n), energy_current=-1.0 * n,
-               stationary=float(n != 16), drift_p_value=0.5)
+               stationary=float(n != 16), stationarity_p_value=0.5)
         for series, gamma, kappa in (("deterministic", "N", lambda n: 2 * n**0.4), ("rare", 1, lambda n: 3.0 * n)) for n in sizes
     ]  # fmt: skip
     of_size = {int(n): CHAIN | {"cells": int(n)} for n in sizes}
@@ -160,7 +160,7 @@ def test_momentum() -> None:
         runs += [result(series, RING | ring | own, "heat_current",
                         heat_variance=(time ** (1 + a), {"time": time}), local_exponent=([1 + a, 1 + a], {"middle": np.sqrt([8, 32])}))]  # fmt: skip
         runs += [result(f"chain-{name}_cells={n}", CHAIN | {"cell_length": 0.1, "cells": n} | own,
-                        "conductivity", kappa=7 * n**a, stationary=1.0, drift_p_value=0.5) for n in sizes]  # fmt: skip
+                        "conductivity", kappa=7 * n**a, stationary=1.0, stationarity_p_value=0.5) for n in sizes]  # fmt: skip
     runs.append(result("dense-longest", RING | ring | {"rule": "elastic", "fugacity": 2.0}, "heat_current",
                        heat_variance=(time**1.25, {"time": time}), local_exponent=([1.25, 1.25], {"middle": np.sqrt([8, 32])})))  # fmt: skip
     (chains, rings), table, caption = draw("momentum", runs, "study")

@@ -19,34 +19,41 @@ from workflow.lib.units import parse
 from workflow.pipeline.program import execute
 from workflow.pipeline.sources import programs
 
-CLOSED = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+CLOSED = {
+    "cells": 5,
+    "particles-per-cell": 3,
+    "cell-length": 1.3,
+    "relaxation-time": 5,
+    "observation-time": 10,
+    "replicas": 4,
+}
 PULSE = {"cells": 41, "particles-per-cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
 EQUILIBRIUM = {"cells": 20, "observation-time": 8, "times": "0.5,1,2,4", "fit-from": 1, "replicas": 8}
-OPEN = {"cells": 4, "cell-length": 0.25, "relaxation-time": 0.5, "observation-time": 20, "replicas": 16}
+OPEN = {"cells": 5, "cell-length": 0.3, "relaxation-time": 0.5, "observation-time": 20, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
 CASES = {
     "persistence": ("persistence", CLOSED),
-    "persistence, rare": ("persistence", CLOSED | {"gamma": 2, "scatterer-temperature": 400}),
+    "persistence, rare": ("persistence", CLOSED | {"gamma": 2.6, "scatterer-temperature": 400}),
     "waiting_time": ("waiting_time", CLOSED),
-    "waiting_time, rare": ("waiting_time", CLOSED | {"gamma": 2, "tail-from": 100}),
+    "waiting_time, rare": ("waiting_time", CLOSED | {"gamma": 2.6, "tail-from": 100}),
     "displacement": ("displacement", CLOSED),
-    "displacement, rare": ("displacement", CLOSED | {"gamma": 2, "zero-total-momentum": True}),
+    "displacement, rare": ("displacement", CLOSED | {"gamma": 2.6, "zero-total-momentum": True}),
     "displacement, random": ("displacement", CLOSED | {"rule": "random-direction"}),
     "heat_current": ("heat_current", EQUILIBRIUM),
     "heat_current, random": ("heat_current", EQUILIBRIUM | {"rule": "random-direction"}),
     "energy_pulse": ("energy_pulse", PULSE),
-    "energy_pulse, rare": ("energy_pulse", PULSE | {"gamma": 1, "relaxation-time": 0.1}),
+    "energy_pulse, rare": ("energy_pulse", PULSE | {"gamma": 1.3, "relaxation-time": 0.1}),
     "conductivity": ("conductivity", OPEN),
-    "conductivity, rare": ("conductivity", OPEN | {"gamma": 1}),
+    "conductivity, rare": ("conductivity", OPEN | {"gamma": 1.3}),
     "steady_profile": ("steady_profile", OPEN),
-    "steady_profile, rare": ("steady_profile", OPEN | {"gamma": 1}),
+    "steady_profile, rare": ("steady_profile", OPEN | {"gamma": 1.3}),
     "steady_profile, random": ("steady_profile", OPEN | {"rule": "random-direction"}),
     "momentum_flux": ("momentum_flux", OPEN),
-    "momentum_flux, rare": ("momentum_flux", OPEN | {"gamma": 1, "start": "empty"}),
+    "momentum_flux, rare": ("momentum_flux", OPEN | {"gamma": 1.3, "start": "empty"}),
     "particle_count": ("particle_count", FILLING),
-    "particle_count, rare": ("particle_count", FILLING | {"gamma": 1}),
+    "particle_count, rare": ("particle_count", FILLING | {"gamma": 1.7}),
     "boltzmann": ("boltzmann", {}),
-    "boltzmann, cells": ("boltzmann", {"cells": 4, "gamma": "N"}),
+    "boltzmann, cells": ("boltzmann", {"cells": 5, "gamma": "N"}),
 }
 COUNTS = {"mu/mean", "total_number/mean"}  # ratios of counts, without rounding
 

@@ -45,7 +45,7 @@ def drifts(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row = {"part": result.series, "collisions": collisions(result)}
         row |= {name: result.parameters[name] for name in ("rule", "sigma", "observation_time")}
-        rows.append(row | result.columns("energy_drift", "momentum_drift"))
+        rows.append(row | result.columns("energy_change", "momentum_change"))
     return pd.DataFrame(rows).sort_values(["rule", "sigma", "collisions"], ignore_index=True)
 
 
@@ -105,7 +105,7 @@ def draw_drifts(axes: Axes, table: pd.DataFrame) -> None:
     """Plots drifts of the energy, and with open symbols of the momentum."""
     for rule, (marker, color) in RULES.items():
         part = table[table.rule == rule]
-        for name, face in (("energy_drift", color), ("momentum_drift", "white")):
+        for name, face in (("energy_change", color), ("momentum_change", "white")):
             label = f"{name.partition('_')[0]}, {rule}"
             axes.errorbar(part.collisions, part[name], **style.points(marker, color, face, label=label))
     axes.set(xscale="log", yscale="log", xlabel="collisions of a chain", ylabel="relative change")
@@ -145,7 +145,7 @@ def parted(table: pd.DataFrame) -> str:
 
 
 def caption(walks: pd.DataFrame, pairs: pd.DataFrame) -> str:
-    longest = walks[walks.observation_time == walks.observation_time.max()].set_index("rule").energy_drift
+    longest = walks[walks.observation_time == walks.observation_time.max()].set_index("rule").energy_change
     return f"""
         (a) In {scientific(walks.collisions.max())} collisions at σ = 0.3 the energy changes by {scientific(longest["elastic"])} as computed here, by {scientific(longest["printed"])} by the
         paper's formula. (b) Energy current over that of the limit; at γ = 10⁻³ a term of order γ is seen. (c) In two units of length trajectories

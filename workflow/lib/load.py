@@ -22,7 +22,7 @@ from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 5
+FORMAT_VERSION = 6
 NOT_IN_DIGEST = {
     "digest",
     "CLASS",
@@ -277,7 +277,9 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dic
 
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:
-    return {name: _text(value) for name, value in group.attrs.items()}
+    """Attributes as int, float, bool or str."""
+    texts = {name: _text(value) for name, value in group.attrs.items()}
+    return {name: value.item() if isinstance(value, np.generic) else value for name, value in texts.items()}
 
 
 def _text(value: Any) -> Any:

@@ -144,7 +144,7 @@ def draw(results: Sequence[Result]) -> Parts:
     chains = tabulate([result for result in results if result not in of_rings])
     table = rings.tabulate(of_rings)
     broken = table[table.rule == "reversal"].iloc[0]
-    control = table[np.isclose(table.zeta, broken.zeta) & np.isclose(table.mass, broken.mass)]
+    control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
     cases = [Case(*pair) for part in (chains, control) for pair in zip(part.rule, part.epsilon, strict=True)]
     look = {case: points | {"linestyle": "-", "linewidth": 0.6} for case, points in looks(cases).items()}
     figure, panels = plt.subplots(1, 2, figsize=(1.6 * style.COLUMN, style.HEIGHT))
@@ -153,7 +153,7 @@ def draw(results: Sequence[Result]) -> Parts:
     others = [
         panels[1].errorbar(other.middle, other.local_exponent - 1, other.local_exponent_error, **OTHERS)
         for _, other in table[(table.rule == "elastic") & ~table.index.isin(control.index)].groupby(
-            ["zeta", "mass"]
+            rings.STATE
         )
     ]
     gas = rf"$\sigma = {format_number(float(of_rings[0].parameters['sigma']))}$, $\zeta = {broken.zeta:g}$"

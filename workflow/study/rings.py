@@ -9,7 +9,8 @@ from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
 
-GAS = ["rule", "epsilon", "zeta", "mass"]  # columns that identify a gas
+STATE = ["sigma", "fugacity", "temperature", "cell_length"]  # parameters of a gas
+GAS = ["rule", "epsilon", *STATE]  # columns that identify a gas
 
 
 def chain(result: Result) -> Chain:
@@ -18,13 +19,20 @@ def chain(result: Result) -> Chain:
     return Chain(result.parameters["fugacity"] * length, run_parameters.mass(result), temperature, length)
 
 
+def gas(result: Result) -> tuple[str | float, ...]:
+    """Values of the columns GAS, as given: ζ and M would be equal at other temperatures or lengths, and differ by
+    rounding."""
+    state = (float(result.parameters[name]) for name in STATE)
+    return (result.parameters["rule"], run_parameters.epsilon(result), *state)
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per gas and time. <Q²>, and its exponent over the octave that begins at this time, are each
     taken from the ring in which their error is smallest."""
     rows = []
     for result in results:
-        heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        scattering = (result.parameters["rule"], run_parameters.epsilon(result))
+        heat, exponent, scaled = result["heat_variance"], result["local_exponent"], chain(result)
+        of_gas = dict(zip(GAS, gas(result), strict=True)) | {"zeta": scaled.zeta, "mass": scaled.mass}
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,
@@ -34,7 +42,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             octave = {name: values[k] if k < len(values) else np.nan for name, values in octaves.items()}
             row = {"cells": result.parameters["cells"], "time": time}
             row |= {"heat_variance": heat.mean[k], "heat_variance_error": heat.error[k]}
-            rows.append(dict(zip(GAS, (*scattering, gas.zeta, gas.mass), strict=True)) | row | octave)
+            rows.append(of_gas | row | octave)
     table = pd.DataFrame(rows)
     best = _most_precise(table, "heat_variance")
     exponents = _most_precise(table.dropna(subset="middle"), "local_exponent")

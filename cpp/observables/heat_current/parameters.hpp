@@ -1,3 +1,4 @@
+// For the study "does the paper hold?" only (panel `momentum`); no figure of the paper needs it.
 #pragma once
 
 #include <fmt/format.h>

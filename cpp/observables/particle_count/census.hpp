@@ -16,14 +16,12 @@ namespace lorentz {
 /// Times and momentum bins at which the particles inside an open chain are counted.
 struct CensusGrid {
   static constexpr std::size_t points_per_decade = 8;
-  static constexpr double decades_of_time = 3;
 
   std::vector<double> times;  // of the momentum distributions
   Bins bins;
   /// Logarithmic bins of |p|, from a tenth of the free path over the last time on, below the front [eq. 25].
   LogGrid speeds;
-  LogGrid number_grid;
-  std::vector<double> number_times;
+  std::vector<double> number_times;  // three decades, or more where the first of `times` is earlier
   double free_path;
 
   CensusGrid(const std::vector<double>& snapshot_times, const Bins& linear, double path)
@@ -32,9 +30,12 @@ struct CensusGrid {
         speeds(0.1 * path / times.back(),
                std::max(1., std::log10(10 * bins.edge(bins.count()) * times.back() / path)),
                points_per_decade),
-        number_grid(times.back() * std::pow(10, -decades_of_time), decades_of_time, points_per_decade),
-        number_times(number_grid.points()),
         free_path(path) {
+    constexpr double points = points_per_decade;
+    const double steps =
+        std::ceil(points * std::log10(times.back() / times.front()) - 1e-9);  // rounding adds none
+    const double decades = std::max(3., steps / points);
+    number_times = LogGrid(times.back() * std::pow(10, -decades), decades, points_per_decade).points();
     number_times.back() = times.back();
   }
 };

@@ -37,7 +37,7 @@ struct CellTallies : TallySchema {
   CellTallies(std::size_t cells, const Bins& bins)
       : cell(numbered_axis("cell", "Cell number, from 0", cells)),
         bond(numbered_axis("bond", "Bond number; 0 and N are the openings", cells + 1)),
-        momentum{"momentum", "momentum", "P/sqrt(M), middle of the bin", bins.middles()} {}
+        momentum{"scaled_momentum", "momentum", "P/sqrt(M), middle of the bin", bins.middles()} {}
 };
 
 /// Passages of the marks of a chain in one direction during a window, and the times that particles spend in
@@ -48,6 +48,9 @@ struct CellTallies : TallySchema {
 /// Flights that overlap an end of the window are added mark by mark.
 class CellStream {
  public:
+  /// Sums over passages: their number, u^2, and the time of a half cell.
+  enum Kind : std::size_t { passages, squares, half_cell_times };
+
   CellStream(const OpenChain& chain, const Window& window)
       : window_(window),
         cells_(chain.cells),
@@ -64,9 +67,9 @@ class CellStream {
                {1, path.velocity * path.velocity, path.time_per_half_cell});
   }
 
-  /// Arrivals (kind 0) or sums of u^2 over arrivals (kind 1) at every mark; `behind` is the offset from a
-  /// bond to the scatterer behind it.
-  std::vector<double> at_marks(std::size_t kind, std::ptrdiff_t behind) const {
+  /// Sums of one kind over the passages of every mark; `behind` is the offset from a bond to the scatterer
+  /// behind it.
+  std::vector<double> at_marks(Kind kind, std::ptrdiff_t behind) const {
     std::vector<double> sums = marks_.sums(kind);
     const std::vector<double> bonds = bonds_.sums(kind);
     for (std::size_t bond = 0; bond <= cells_; ++bond) {
@@ -80,7 +83,7 @@ class CellStream {
   /// Time that particles spend in every cell, summed over particles.
   std::vector<double> residence() const {
     std::vector<double> times = residence_.sums();
-    const std::vector<double> halves = bonds_.sums(2);
+    const std::vector<double> halves = bonds_.sums(half_cell_times);
     for (std::size_t cell = 0; cell < cells_; ++cell) times[cell] += halves[cell] + halves[cell + 1];
     return times;
   }
@@ -132,8 +135,8 @@ class CellProfile {
     }
     for (const Direction side : {leftwards, rightwards}) {
       const int sign = side == rightwards ? 1 : -1;
-      const std::vector<double> numbers = streams_[side].at_marks(0, sign);
-      const std::vector<double> squares = streams_[side].at_marks(1, sign);
+      const std::vector<double> numbers = streams_[side].at_marks(CellStream::passages, sign);
+      const std::vector<double> squares = streams_[side].at_marks(CellStream::squares, sign);
       for (std::size_t cell = 0; cell < cells; ++cell) {
         sums[tallies.arrivals.row(side)][cell] = numbers[2 * cell + 1] / duration;
         sums[tallies.arriving_squares.row(side)][cell] = squares[2 * cell + 1] / duration;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,10 +19,12 @@ using namespace lorentz;
 using support::TemporaryFolder;
 
 const std::vector<double> reals = {0.1, -0.0, 5e-324, 1e308, INFINITY, -INFINITY};
-const std::vector<std::uint64_t> counts = {0, 1, ~std::uint64_t{0}};
-const std::vector<Parameter> parameters = {
-    {"flag", true}, {"integer", std::int64_t{-3}},           {"count", std::uint64_t{3}},
-    {"real", 0.1},  {"text", std::string("\xcf\x83 = 1/2")}, {"empty", std::string()}};  // UTF-8
+const std::vector<std::int64_t> counts = {0, -1, std::numeric_limits<std::int64_t>::max()};
+const std::vector<Parameter> parameters = {{"flag", true},
+                                           {"integer", std::int64_t{-3}},
+                                           {"real", 0.1},
+                                           {"text", std::string("\xcf\x83 = 1/2")},
+                                           {"empty", std::string()}};  // UTF-8
 
 Axis axis(const std::string& name, std::size_t size) { return numbered_axis(name, "An axis", size); }
 

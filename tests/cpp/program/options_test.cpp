@@ -69,7 +69,8 @@ TEST(Options, RefuseOtherValues) {
   expect_all_refused("--gamma", {"-1", "n", "2N"});
   expect_all_refused("--sites", {"0", "301", "2.5", "N"});
   expect_all_refused("--cells", {"0", "101", "-1", "1.0", "1e2", "4294967297"});
-  expect_all_refused("--seed", {"-1", "18446744073709551616"});
+  expect_all_refused("--seed", {"-1", "9223372036854775808", "18446744073709551616"});
+  expect_refused({"--seed", "18446744073709551616"}, "--seed", "from 0 to 9223372036854775807");
   expect_all_refused("--times", {"1,2,", ",1,2", "1, 2", "2,1", "1,1", "1,nan", "1,11", "-1,2"});
   expect_all_refused("--start", {"hot"});
 }
@@ -108,13 +109,13 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
   Example example;
   EXPECT_FALSE(
       example.parse({"--sigma=-1", "--temperature", "1e-30", "--relaxation-time", "0", "--cells", "100",
-                     "--seed", "18446744073709551615", "--start", "warm", "--zero-total-momentum", "--gamma",
+                     "--seed", "9223372036854775807", "--start", "warm", "--zero-total-momentum", "--gamma",
                      "1e30", "--sites", "300", "--times", "0,1e-310,+2,10"}));
   EXPECT_EQ(example.sigma, -1);
   EXPECT_EQ(example.temperature, 1e-30);
   EXPECT_EQ(example.relaxation, 0);
   EXPECT_EQ(example.cells, 100U);
-  EXPECT_EQ(example.seed, ~std::uint64_t{0});
+  EXPECT_EQ(example.seed, std::uint64_t{9223372036854775807});
   EXPECT_EQ(example.start, "warm");
   EXPECT_TRUE(example.shifted);
   EXPECT_EQ(example.gamma, 1e30);
@@ -122,9 +123,10 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
   EXPECT_EQ(example.times, (std::vector<double>{0, 1e-310, 2, 10}));
   EXPECT_TRUE(example.options.given("--cells"));
   EXPECT_FALSE(example.options.given("--threads"));
-  EXPECT_FALSE(example.parse({"--sites", "continuum", "--gamma", "N"}));
-  EXPECT_EQ(example.sites, std::nullopt);
-  EXPECT_EQ(example.gamma, std::nullopt);
+  Example words;
+  EXPECT_FALSE(words.parse({"--sites", "continuum", "--gamma", "N"}));
+  EXPECT_EQ(words.sites, std::nullopt);
+  EXPECT_EQ(words.gamma, std::nullopt);
 }
 
 TEST(Options, KeepTheirWordsAsGiven) {

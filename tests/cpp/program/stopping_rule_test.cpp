@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace stopping_rule_test {
@@ -151,6 +152,35 @@ TEST(StoppingRule, CoverageForSkewedRecords) {
       }
     EXPECT_LT(compare(at_once(law, 60, 1), 1), -significant);
     EXPECT_LT(compare(at_once(law, 20, 3), 1), -significant);
+  }
+}
+
+// [eq. 53], of exponential records (s = 1, g = 2, v = 1) under both kinds of target, and of lognormal ones.
+// Detected mistakes: another sign, the bias of the other kind of target.
+TEST(StoppingRule, BiasIsThatOfFirstOrder) {
+  constexpr double s = 0.5, w = 1.2840254166877414;  // exp(s^2)
+  const double skewness = (w + 2) * std::sqrt(w - 1), variation = std::sqrt(std::expm1(s * s));
+  const std::vector<std::pair<Law, double>> cases{{exponential(false), -2},
+                                                  {exponential(true), 0},
+                                                  {lognormal(), -(skewness - 2 * variation) * variation}};
+  for (const auto& [law, factor] : cases) {
+    const StoppingRule rule{5, 1'000'000};
+    const auto next = [&](std::uint64_t used) { return rule.next_look(used); };
+    double sum = 0, squares = 0, expected = 0;
+    constexpr int runs = 20'000;
+    for (int seed = 0; seed < runs; ++seed) {
+      Generator generator(static_cast<unsigned>(seed));
+      const Sample sample =
+          until(law, law.deviation / std::sqrt(130), next, &StoppingRule::reached, generator);
+      sum += sample.mean() - 1;
+      squares += (sample.mean() - 1) * (sample.mean() - 1);
+      expected += factor / sample.replicas;
+    }
+    const double error = std::sqrt(squares) / runs;
+    EXPECT_LT(std::abs(sum - expected) / runs, 4 * error) << factor;
+    if (factor < -1) {
+      EXPECT_LT(sum / runs, -8 * error);
+    }
   }
 }
 

@@ -26,7 +26,7 @@ using support::content_of;
 using support::TemporaryFolder;
 using support::write_file;
 using Names = std::set<std::string>;
-using Indices = std::vector<std::uint64_t>;
+using Indices = std::vector<std::int64_t>;
 using Arguments = std::vector<std::string>;
 
 using MeasureValue = std::function<double(const Replica&)>;
@@ -112,11 +112,11 @@ MeasureValue failing_at(std::uint64_t index) {
   };
 }
 
-std::uint64_t replicas_in(const std::string& path) {
+std::int64_t replicas_in(const std::string& path) {
   return Hdf5Reader(path).counts("/results/value/count").at(0);
 }
 
-std::vector<std::uint64_t> replicas_kept(const std::string& path) {
+Indices replicas_kept(const std::string& path) {
   return Hdf5Reader(path + ".checkpoint").counts("/replicas/index");
 }
 
@@ -142,11 +142,10 @@ TEST_F(StudyTest, StopsAtTheTargetErrorOnABatchBoundary) {
   const Arguments target{"--target-error", "0.02"};
   EXPECT_EQ(run(with(to_output, target)), 0);
   EXPECT_TRUE(has("reached"));
-  const std::uint64_t count = replicas_in(output);
+  const std::int64_t count = replicas_in(output);
   EXPECT_GT(count, 66U);
   EXPECT_EQ(count % 16, 0U);
-  EXPECT_FALSE(
-      Hdf5Reader(output).has_attribute("/parameters", "replicas", std::uint64_t{32}));  // the default
+  EXPECT_FALSE(Hdf5Reader(output).has_attribute("/parameters", "replicas", std::int64_t{32}));  // the default
   expect_refused_run(with(to_output, {"--overwrite", "--target-error", "0.02", "--replicas", "8"}),
                      "--replicas");
   EXPECT_TRUE(StoppingRule::reached(count, error() / mean() / 0.02));
@@ -295,7 +294,7 @@ TEST_F(StudyTest, SignalsEndTheRunWithACheckpoint) {
   }
   const auto estimating = [] {
     Study study = study_of(measure);
-    study.groups.front().statistics({{"more", "1", "Another"}}, [](const Records&) -> Estimate {
+    study.groups.front().statistics({{"more", "1", "Another"}}, [](const Records&) -> Estimates {
       interrupt(SIGINT);
       return {{1}, {0}};
     });

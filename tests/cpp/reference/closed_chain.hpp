@@ -16,7 +16,8 @@ namespace reference {
 /// shared with the engine or the programs. Particles start with uniform positions and Gaussian momenta,
 /// scatterers at rest; cells have length 1. Prints one line per replica: at every time after the relaxation
 /// the mean over the particles of x^2 and the square of their mean x; then, over the observation after the
-/// relaxation, the number of scatterings, the number with p' p > 0, and a histogram, with bins of equal
+/// relaxation, the number of scatterings, the number with p' p > 0, sums of the energies of particle and
+/// scatterer before them, and a histogram, with bins of equal
 /// ratio, of the waiting times that begin with these scatterings. The chain runs until every such waiting
 /// time has ended or exceeds the last bin. No time exceeds the observation.
 struct ClosedChain {
@@ -39,8 +40,8 @@ struct ClosedChain {
 /// Statistics from the collisions. A displacement is the time integral of the momentum.
 class ClosedChainWatch {
  public:
-  ClosedChainWatch(const ClosedChain& setting, const std::vector<double>& momenta)
-      : setting_(setting), counts_(setting.bins, 0) {
+  ClosedChainWatch(const ClosedChain& setting, double scatterer_mass, const std::vector<double>& momenta)
+      : setting_(setting), scatterer_mass_(scatterer_mass), counts_(setting.bins, 0) {
     for (const double p : momenta) particles_.push_back({p});
   }
 
@@ -56,6 +57,8 @@ class ClosedChainWatch {
     particle.wait_begin = observed ? event.time : std::numeric_limits<double>::quiet_NaN();
     scatterings_ += observed ? 1 : 0;
     persistent_ += observed && event.p_before * event.p_after > 0 ? 1 : 0;
+    particle_energy_ += observed ? event.p_before * event.p_before / 2 : 0;
+    scatterer_energy_ += observed ? event.P_before * event.P_before / (2 * scatterer_mass_) : 0;
   }
 
   /// Starts the measurement of displacements.
@@ -76,7 +79,7 @@ class ClosedChainWatch {
   }
 
   void print_counts() const {
-    std::printf("%ld %ld", scatterings_, persistent_);
+    std::printf("%ld %ld %.17g %.17g", scatterings_, persistent_, particle_energy_, scatterer_energy_);
     for (const long count : counts_) std::printf(" %ld", count);
     std::printf("\n");
   }
@@ -94,9 +97,11 @@ class ClosedChainWatch {
   }
 
   const ClosedChain& setting_;
+  double scatterer_mass_;
   std::vector<Tagged> particles_;
   std::vector<long> counts_;
   long scatterings_ = 0, persistent_ = 0;
+  double particle_energy_ = 0, scatterer_energy_ = 0;
 };
 
 inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
@@ -113,7 +118,7 @@ inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
   chain.reverse(of.number("particle-reversal"), of.number("scatterer-reversal"), generator());
   chain.rotate_with(of.number("rotation"), generator());
 
-  ClosedChainWatch watch(*this, momenta);
+  ClosedChainWatch watch(*this, chain.scatterer_mass(), momenta);
   const auto run_until = [&](double time) {
     for (HeapSimulator<double>::Event event{}; chain.step(time, event);) watch.see(event);
   };

@@ -31,7 +31,7 @@ Errors finished(const ClosedRun& run) {
   const ClosedTallies tallies;
   TallySums sums(tallies);
   const std::uint64_t events = run.finish(tallies, sums);
-  return {events, sums[tallies.energy_drift], sums[tallies.momentum_drift]};
+  return {events, sums[tallies.energy_change], sums[tallies.momentum_change]};
 }
 
 // The particles are too slow to reach a scatterer, so that nothing happens and nothing drifts. The clock

@@ -1,5 +1,6 @@
 #include "sampling/stationarity.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -15,18 +16,19 @@ const Window window{2, 10};
 
 // Detected mistakes: the middle scatterer is another one; the first half is not subtracted; the energy of a
 // particle that leaves is added; exits after the window count.
-TEST(Drift, ChangesBetweenTheHalves) {
+TEST(HalfDifferences, ChangesBetweenTheHalves) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
-  Drift drift(chain, window);
-  drift.on_injection(End::left, 3, 2);
-  drift.on_injection(End::left, 3, 0);
-  drift.on_exit(End::right, 7, 4);
-  drift.on_exit(End::left, 10, -8);
-  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U}) drift.on_scatterer(scatterer, 1. * scatterer, 6);
-  drift.finish({0, 2, 4, 6, 8}, 10);
+  const HalfDifferenceTallies tallies(schema);
+  HalfDifferences half_differences(chain, window);
+  half_differences.on_injection(End::left, 3, 2);
+  half_differences.on_injection(End::left, 3, 0);
+  half_differences.on_exit(End::right, 7, 4);
+  half_differences.on_exit(End::left, 10, -8);
+  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U})
+    half_differences.on_scatterer(scatterer, 1. * scatterer, 6);
+  half_differences.finish({0, 2, 4, 6, 8}, 10);
   TallySums sums(schema);
-  drift.record(tallies, sums);
+  half_differences.record(tallies, sums);
   EXPECT_EQ(sums[tallies.energy_current], (0.25 * 16 - 0.25 * 4) / 4);
   EXPECT_EQ(sums[tallies.particle_current], -0.125);
   EXPECT_EQ(sums[tallies.energy], (2. - 8.) / 8);
@@ -36,10 +38,11 @@ TEST(Drift, ChangesBetweenTheHalves) {
   EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{-2, -2, -2, 0, 0, 0}));
 }
 
-/// drift_p_value of normal records of variance 1, with `shift` standard errors of the mean in one column.
+/// stationarity_p_value of normal records of variance 1, with `shift` standard errors of the mean in one
+/// column.
 double p_value(std::size_t replicas, std::size_t shifted, double shift, std::uint64_t seed) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
+  const HalfDifferenceTallies tallies(schema);
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   Records records(schema.width());
@@ -49,7 +52,7 @@ double p_value(std::size_t replicas, std::size_t shifted, double shift, std::uin
     row[shifted] += shift / std::sqrt(static_cast<double>(replicas));
     records.append(row);
   }
-  return quantity_named(stationarity(tallies, chain).estimate(records), "drift_p_value").mean.front();
+  return quantity_named(stationarity(tallies, chain).estimate(records), "stationarity_p_value").mean.front();
 }
 
 // The energy has half of the level, the other five columns the other half, which is exact for p << 1.
@@ -62,9 +65,9 @@ TEST(Stationarity, FalseAlarmsHaveTheStatedFrequency) {
 }
 
 // Detected mistake: a column is left out.
-TEST(Stationarity, DriftOfOneColumnIsFound) {
+TEST(Stationarity, ADifferenceInOneColumnIsFound) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
+  const HalfDifferenceTallies tallies(schema);
   Columns tested = tallies.halves();
   tested.push_back(tallies.energy.column);
   for (const std::size_t column : tested) {
@@ -73,12 +76,36 @@ TEST(Stationarity, DriftOfOneColumnIsFound) {
   }
 }
 
+// The p-value is twice the two-sided one of Student's t, exact for records whose mean and deviation are
+// known. Detected mistakes: a one-sided or uncorrected p-value; degrees of freedom of as many as records.
+TEST(Stationarity, ThresholdOfThePValue) {
+  TallySchema schema;
+  const HalfDifferenceTallies tallies(schema);
+  Columns tested = tallies.halves();
+  tested.push_back(tallies.energy.column);
+  constexpr std::size_t replicas = 11;
+  const OpenChain fed{.cells = 5, .left = {6, 1}, .right = {4, 1}};
+  const double t = gsl_cdf_tdist_Qinv(1e-4 / 4, replicas - 1);
+  for (const std::size_t column : tested)
+    for (const double factor : {-1.01, -0.99, 0.99, 1.01}) {
+      Records records(schema.width());
+      for (std::size_t replica = 0; replica < replicas; ++replica) {
+        std::vector<double> row(schema.width());
+        const double noise = replica == 0 ? 0 : replica % 2 == 0 ? 1 : -1;  // of variance 1
+        row[column] = factor * t / std::sqrt(replicas) + noise;
+        records.append(row);
+      }
+      const Results found = stationarity(tallies, fed).estimate(records);
+      EXPECT_EQ(quantity_named(found, "stationary").mean.front(), std::abs(factor) < 1) << column << factor;
+    }
+}
+
 // Detected mistakes: the gain is compared with its error alone, so that the slow growth of every chain
 // counts; with the number of particles in place of their share; a chain that loses particles passes; one
 // passes whose gain could not be seen.
 TEST(Stationarity, GainOfParticles) {
   TallySchema schema;
-  const DriftTallies tallies(schema);
+  const HalfDifferenceTallies tallies(schema);
   const auto stationary = [&](double gain, double scatter = 1e-3) {
     Records records(schema.width());
     for (const double noise : {-1., 1., -1., 1., -1., 1., -1., 1., -1., 1.}) {

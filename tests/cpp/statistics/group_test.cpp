@@ -37,7 +37,7 @@ TEST(Group, JackknifesFormulasOfTheMeanRecord) {
   EXPECT_EQ(results[0].what.units, "time");
   EXPECT_EQ(results[0].mean, std::vector{3.});
   EXPECT_NEAR(results[0].standard_error[0], std::sqrt(7. / 3), 1e-14);
-  EXPECT_EQ(results[0].count, std::vector<std::uint64_t>{3});
+  EXPECT_EQ(results[0].count, std::vector<std::int64_t>{3});
   EXPECT_FALSE(results[0].control_variates.has_value());
 
   const std::vector<double> without = {4 / 9., 3.5 / 8, 1.5 / 4};

@@ -14,7 +14,7 @@ using namespace lorentz;
 std::vector<double> identity(std::span<const double> mean) { return {mean.begin(), mean.end()}; }
 std::vector<double> ratio(std::span<const double> mean) { return {mean[1] / mean[0]}; }
 
-Estimate jackknife_of(const Records& records, std::vector<double> (*f)(std::span<const double>)) {
+Estimates jackknife_of(const Records& records, std::vector<double> (*f)(std::span<const double>)) {
   return jackknife(records, [&](TallyMeans mean) { return f(mean[Tally{0, records.width()}]); });
 }
 
@@ -26,7 +26,7 @@ TEST(Jackknife, IsTheStandardErrorOfAMean) {
   for (const int replicas : {2, 3, 10, 1000}) {
     Records records(1);
     for (int i = 0; i < replicas; ++i) records.append(std::vector{normal(generator)});
-    const Estimate estimate = jackknife_of(records, identity);
+    const Estimates estimate = jackknife_of(records, identity);
     const support::Sample expected = support::sample(records.values());
     // The mean has rounding errors of 2^-53 of 1000, which multiplies in x_r.
     EXPECT_NEAR(estimate.mean[0], expected.mean, 1e-12);
@@ -41,7 +41,7 @@ TEST(Jackknife, IsNaNWhereOnlyOneReplicaHasARatio) {
     Records records(2);
     for (int i = 1; i < replicas; ++i) records.append(std::vector{0.0, 0.0});
     records.append(std::vector{3.0, 0.7});
-    const Estimate estimate = jackknife_of(records, ratio);
+    const Estimates estimate = jackknife_of(records, ratio);
     EXPECT_NEAR(estimate.mean[0], 0.7 / 3, 1e-15);
     EXPECT_TRUE(std::isnan(estimate.standard_error[0])) << replicas;
   }

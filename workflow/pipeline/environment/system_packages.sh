@@ -2,7 +2,7 @@
 # Finds missing packages of Debian and Ubuntu, and installs them with apt if root; otherwise prints the command to do so. Elsewhere CMake
 # names what it misses. With "dev" also the packages for tests, checks and benchmarks.
 set -euo pipefail
-needed='g++ cmake ninja-build libgsl-dev libhdf5-dev zlib1g-dev libcli11-dev nlohmann-json3-dev librandom123-dev
+needed='g++ cmake ninja-build libgsl-dev libhdf5-dev zlib1g-dev librandom123-dev
   libsleef-dev libfmt-dev python3-venv'
 for group; do
   if [ "$group" = dev ]; then needed+=' libgtest-dev libbenchmark-dev clang'; fi

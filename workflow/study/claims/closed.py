@@ -122,7 +122,7 @@ def momentum_changes(data: Results) -> list[Estimate]:
     drifts = []
     for series, where in (("all", ""), ("zero-momentum", " = 0")):
         runs = [run for run in data.results("fig07_inset", series) if run.parameters["sigma"]]
-        drifts += _named(runs, "momentum_drift", name + where)
+        drifts += _named(runs, "momentum_change", name + where)
     changes = []
     for drift in drifts:
         change = max(drift.value, sys.float_info.epsilon)

@@ -44,7 +44,7 @@ def equilibrium(data: Results) -> list[Estimate]:
         )
         both = ends.mean.mean(axis=0), np.hypot(*ends.error) / 2
         of_particles = largest_distance(momentum, density, error, EQUAL)
-        of_scatterers = largest_distance(ends.axes["momentum"], both[0], both[1], EQUAL)
+        of_scatterers = largest_distance(ends.axes["scaled_momentum"], both[0], both[1], EQUAL)
         numbers += [
             Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, crossing.dof.min()),
             Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, ends.dof.min()),

@@ -16,7 +16,7 @@ from workflow.study.results import (
     log_slope,
     power,
 )
-from workflow.study.rings import chain
+from workflow.study.rings import chain, gas
 from workflow.study.verdict import Estimate
 
 LARGE = 4  # the largest sizes are those within this factor of the largest: two octaves
@@ -122,7 +122,7 @@ def _middles(ring: Result) -> list[float]:
 
 def _longest(rings: Sequence[Result]) -> list[Result]:
     """The ring of longest time of every gas."""
-    longest = {_gas(ring): ring for ring in sorted(rings, key=_last_time)}
+    longest = {gas(ring): ring for ring in sorted(rings, key=_last_time)}
     found = [ring for ring in longest.values() if _last_time(ring) > LATE]
     if not found:
         raise MissingError(f"no ring was observed beyond t = {LATE}")
@@ -130,8 +130,8 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
 
 
 def _gas(ring: Result) -> str:
-    gas = chain(ring)
-    return f"ζ = {format_number(gas.zeta)}, M = {format_number(gas.mass)}"
+    scaled = chain(ring)
+    return f"ζ = {format_number(scaled.zeta)}, M = {format_number(scaled.mass)}"
 
 
 def _last_time(ring: Result) -> float:

@@ -1,0 +1,288 @@
+"""Quantities that are functions of others in the same file, calculated again from these, in chains of N, n and γ
+that are no powers of two. Errors in the others are found by reference simulators and exact results."""
+
+import importlib
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from tests.python import plotted
+from tests.python.conftest import ROOT, Measure
+from workflow.lib.load import Quantity
+
+RING = {"cells": 7, "particles_per_cell": 3, "gamma": 2.6, "cell_length": 0.7, "replicas": 10}
+CHAIN = {"cells": 7, "gamma": 2.6, "cell_length": 0.7, "replicas": 20}
+
+
+SIZES = ("cells", "particles_per_cell", "cell_length", "gamma")
+EXACT = {"test_extremes.CLOSED"}  # results are equal bit by bit for powers of two only
+
+
+def sizes(found: object, name: str) -> Iterator[float]:
+    """Numbers of an option in nested dictionaries and lists."""
+    if isinstance(found, dict):
+        for key, value in found.items():
+            if str(key).replace("-", "_") == name and isinstance(value, int | float):
+                yield float(value)
+            yield from sizes(value, name)
+    elif isinstance(found, list | tuple):
+        for each in found:
+            yield from sizes(each, name)
+
+
+def test_cases_are_not_all_powers_of_two() -> None:
+    """Positions j/N, rates γ/N and logarithms to the base of two are exact for powers of two, so that a comparison
+    of rounded numbers passes. Parameters of results that are made up for panels (plotted.py) compute nothing."""
+    found = []
+    for path in sorted((ROOT / "tests/python").glob("test_*.py")):
+        module = importlib.import_module(f"tests.python.{path.stem}")
+        for label, cases in vars(module).items():
+            for name in SIZES:
+                numbers = [number for number in sizes(cases, name) if number != 1]
+                dyadic = [math.frexp(number)[0] == 0.5 for number in numbers]
+                made_up = cases is getattr(plotted, label, None) or f"{path.stem}.{label}" in EXACT
+                if dyadic and all(dyadic) and not made_up:
+                    found.append(f"{path.name}: {label} has {name} {numbers}")
+    assert not found
+
+
+def slope(x: np.ndarray, y: np.ndarray) -> float:
+    return float(np.polyfit(np.log(x), y, 1)[0])
+
+
+def middles(times: np.ndarray) -> np.ndarray:
+    return np.sqrt(times[1:] * times[:-1])
+
+
+def test_local_slope_is_at_the_middle_of_its_times(measure: Measure) -> None:
+    """The last of the times is nearer to the one before than the others. Detected mistake: the middles are those
+    of equal steps."""
+    result = measure("displacement", **RING, decades=1.94, relaxation_time=3, observation_time=50)
+    variance, local = result["variance"], result["local_slope"]
+    time = variance.axes["time"]
+    assert time[-1] == 50
+    np.testing.assert_allclose(local.axes["time"], middles(time), rtol=1e-14)
+    np.testing.assert_allclose(local.mean, np.diff(np.log(variance.mean)) / np.diff(np.log(time)), rtol=1e-9)
+
+
+@pytest.mark.parametrize("times", ["3,10,30,90", "0.01,0.5,90"])
+def test_slopes_of_a_filling_chain(measure: Measure, times: str) -> None:
+    """Detected mistakes: slopes begin later than the first time; the curvature is that of n; the front's bins are
+    those of another time."""
+    result = measure("particle_count", **CHAIN | {"cell_length": 0.07}, times=times)
+    number, speeds = result["total_number"], result["weighted_speed_density"]
+    time, first = number.axes["time"], float(times.partition(",")[0])
+    assert time[0] <= first * (1 + 1e-9)
+    late = time > first * (1 - 1e-9)
+    assert result["log_slope"].mean == pytest.approx(slope(time[late], number.mean[late]), rel=1e-9)
+    slopes = np.diff(number.mean) / np.diff(np.log(time))
+    curvature = slope(middles(time)[late[:-1]], slopes[late[:-1]])
+    assert result["log_curvature"].mean == pytest.approx(curvature, rel=1e-9)
+    front, at = result["front"].mean, result["front"].axes["time"]
+    plateau = first > 1  # long enough for one at all times
+    assert np.isfinite(front).all() == plateau
+    assert not plateau or result["front_exponent"].mean == pytest.approx(slope(at, np.log(front)), rel=1e-9)
+    path, speed = 0.07 * 7 / 2.6, speeds.axes["speed"]
+    thermal = np.sqrt(result.parameters["temperature_left"])
+    for k, each in enumerate(at):
+        used = (speed >= 10 * path / each) & (speed <= 0.2 * thermal)
+        if used.any():
+            assert result["plateau"].mean[k] == pytest.approx(speeds.mean[k, used].mean(), rel=1e-9)
+
+
+def test_particles_by_speed_are_those_inside(measure: Measure) -> None:
+    """The densities of |p| on linear and on logarithmic bins have equal numbers of particles between common edges,
+    apart from the linear bin around them. Detected mistakes: one sign of p; widths in decades."""
+    chain = CHAIN | {"times": "3,10", "momentum_bins": 600, "momentum_max": 30}
+    result = measure("particle_count", **chain)
+    fine, speeds = result["weighted_momentum_density"], result["weighted_speed_density"]
+    p, speed = fine.axes["p"], speeds.axes["speed"]
+    half = (speed[1] / speed[0]) ** 0.5
+    low, high = speed[speed > 1][0] / half, speed[speed < 20][-1] * half
+    linear = (fine.mean / np.abs(p))[:, (np.abs(p) > low) & (np.abs(p) < high)].sum(axis=1) * (p[1] - p[0])
+    inside = speeds.mean[:, (speed > low) & (speed < high)].sum(axis=1) * 2 * np.log(half)
+    np.testing.assert_allclose(inside, linear, rtol=0.03)
+
+
+def test_exponent_spread_is_that_of_its_cuts(measure: Measure) -> None:
+    """The exponents of runs with one seed whose cut is each edge of the bins within a factor of three. Detected
+    mistakes: a cut is left out; the spread is that of neighbours."""
+    run = RING | {"relaxation_time": 3, "observation_time": 70, "cell_length": 1.3}
+    cuts = 10 ** (np.arange(8, 18) / 10)  # edges from 20/3 to 60, ten per decade
+    assert cuts[0] < 20 / 3 < cuts[1]
+    assert cuts[-1] < 60 < cuts[-1] * 10**0.1
+    found = [
+        float(measure("waiting_time", **run, tail_from=cut * (1 + 1e-9))["exponent"].mean) for cut in cuts
+    ]
+    spread = float(measure("waiting_time", **run, tail_from=20)["exponent_spread"].mean)
+    assert spread == pytest.approx(max(found) - min(found), rel=1e-9)
+    assert spread > 1.5 * np.abs(np.diff(found)).max()
+
+
+def test_waiting_times_of_hot_scatterers_have_bins(measure: Measure) -> None:
+    """Particles that were hit by scatterers of 10^6 times their temperature wait a thousandth as long. Detected
+    mistake: all of them are in the first bin, whose density is then not that of its neighbours."""
+    run = RING | {
+        "temperature": 1e-6,
+        "scatterer_temperature": 1,
+        "relaxation_time": 0,
+        "observation_time": 30,
+    }
+    density = measure("waiting_time", **run)["density"]
+    tau = density.axes["tau"]
+    edge = 10**0.05
+    share = density.mean * tau * (edge - 1 / edge)
+    assert tau[0] == pytest.approx(0.7e-3 * edge)
+    assert share.sum() == pytest.approx(1, abs=1e-6)
+    assert share[tau < 0.02].max() == 0
+    assert share.max() < 0.3
+
+
+def of_few_crossings(quantity: Quantity, crossings: np.ndarray) -> None:
+    """NaN below a thousand crossings."""
+    np.testing.assert_array_equal(np.isnan(quantity.mean), crossings < 1000)
+
+
+def test_a_kurtosis_of_few_crossings_is_not_defined(measure: Measure) -> None:
+    """Detected mistake: its error, which the few fastest particles determine, is taken for known. Hardly any
+    particle comes from the right."""
+    baths = {"nu_left": 30, "nu_right": 1e-3, "temperature_left": 50, "temperature_right": 50}
+    run = CHAIN | baths | {"cell_length": "1/N", "relaxation_time": 3, "observation_time": 7, "replicas": 10}
+    result = measure("momentum_flux", **run)
+    flux, kurtosis = result["flux"], result["kurtosis"]
+    p = flux.axes["momentum"]
+    halves = [flux.mean[:, np.sign(p) == sign].sum(axis=1) for sign in (-1, 1)]
+    crossings = np.stack(halves, axis=1) * (p[1] - p[0]) * 7 * 10
+    assert (np.abs(crossings - 1000) > 30).all()
+    of_few_crossings(kurtosis, crossings)
+    assert np.isnan(kurtosis.mean).any()
+    assert np.isfinite(kurtosis.mean).any()
+
+
+def closed(energy: np.ndarray, times: np.ndarray) -> list[float]:
+    """Whether both sides of a pulse have met: the mean energy of the four cells opposite to it exceeds 2 % of the
+    largest, or the window of the last peak, at its speed, would have passed half the ring; and from then on."""
+    cells, found, speed = energy.shape[1], [], 0.0
+    for profile, time in zip(energy, times, strict=True):
+        met = profile[[0, 1, -2, -1]].mean() > 0.02 * profile.max() or speed * time > cells / 2
+        found.append(float(met or 1 in found))
+        centre = cells // 2
+        sides = (profile[centre:] + profile[centre::-1]) / 2
+        half = np.round(0.06 * np.arange(len(sides))).astype(int)
+        smooth = np.array([sides[d - h : d + h + 1].mean() for d, h in enumerate(half)])
+        top = 1 + int(np.argmax(smooth[1:]))
+        below = smooth <= smooth[top] / 2
+        if smooth[top] > 0 and below[:top].any() and below[top:].any():
+            left, right = np.flatnonzero(below[:top])[-1], top + np.flatnonzero(below[top:])[0]
+            level = smooth[top] / 2
+            ends = (
+                left + (level - smooth[left]) / (smooth[left + 1] - smooth[left]),
+                right - (level - smooth[right]) / (smooth[right - 1] - smooth[right]),
+            )
+            speed = sum(ends) / 2 / time
+    return found
+
+
+@pytest.mark.parametrize("gamma", ["N", 7.3])
+def test_exponents_of_a_pulse_and_its_end(measure: Measure, gamma: str | float) -> None:
+    """Detected mistakes: exponents of other ranges of times or of the logarithm of another quantity; the ring is
+    closed too late, or opens again."""
+    ring = {"cells": 61, "particles_per_cell": 30, "gamma": gamma, "replicas": 8, "pairs_per_replica": 20}
+    result = measure("energy_pulse", **ring, times="0.013,0.017,0.021,0.027,0.033,0.041,0.09,0.3,0.7")
+    energy, peak = result["energy_difference"], result["peak"]
+    time = peak.axes["time"]
+    ends = closed(energy.mean, time)
+    assert result["ring_closed"].mean.tolist() == ends
+    assert ends[0] == 0
+    assert ends[-1] == 1
+    assert np.isnan(peak.mean[np.array(ends) == 1]).all()
+
+    def exponent(begin: float, end: float) -> float:
+        used = np.isfinite(peak.mean) & (time >= begin) & (time <= end)
+        return -slope(time[used], np.log(peak.mean[used])) if used.sum() > 1 else np.nan
+
+    assert result["damping_exponent"].mean == pytest.approx(exponent(0, 1), rel=1e-9)
+    later, local = result["damping_exponent_from"], result["local_damping_exponent"]
+    starts = [
+        exponent(begin, 1) if np.isfinite(at) else np.nan for begin, at in zip(time, peak.mean, strict=True)
+    ]
+    np.testing.assert_allclose(later.mean, starts[:-1], rtol=1e-9)
+    until = local.axes["until"]
+    octaves = zip([time[0], *until[:-1]], until, strict=True)
+    defined = np.isfinite(local.mean)
+    assert defined.any()
+    np.testing.assert_allclose(
+        local.mean[defined], np.array([exponent(*ends) for ends in octaves])[defined], rtol=1e-9
+    )
+
+
+OPEN = CHAIN | {"cell_length": 0.07, "relaxation_time": 3, "observation_time": 13}
+
+
+def test_conductivity_is_that_of_its_current_and_temperatures(measure: Measure) -> None:
+    """[eq. 28], N = 7. Detected mistakes: the sign; N - 1 gradients; another temperature."""
+    result = measure("conductivity", **OPEN | {"gamma": "N", "replicas": 60})
+    value = {name: float(quantity.mean) for name, quantity in result.quantities.items()}
+    rise = value["temperature_last"] - value["temperature_first"]
+    assert value["kappa"] == pytest.approx(-7 * value["energy_current"] / rise, rel=1e-12)
+    assert result["stationary"].mean == 1
+
+
+def test_differences_deviations_and_lines_of_a_profile(measure: Measure) -> None:
+    """Eleven cells, of which seven are in the middle half. Detected mistakes: lines through other cells, or not
+    relative; means over cells in place of bonds."""
+    result = measure("steady_profile", **OPEN | {"cells": 11})
+    mean = {name: quantity.mean for name, quantity in result.quantities.items()}
+    cells = np.arange(11)
+    np.testing.assert_allclose(
+        mean["temperature_difference"],
+        mean["temperature_scatterer"] - mean["temperature_particle"],
+        rtol=1e-9,
+    )
+    line = np.polyfit(cells[2:9], mean["density"][2:9], 1)
+    assert mean["density_slope"] == pytest.approx(line[0] * 11 / np.polyval(line, 5), rel=1e-9)
+    ends = mean["density"][[0, -1]] / np.polyval(line, [0, 10]) - 1
+    np.testing.assert_allclose(mean["density_excess"], ends, rtol=1e-9)
+    assert mean["energy_current_mean"] == pytest.approx(mean["energy_current"].mean(), rel=1e-12)
+    current = mean["particle_current"]
+    np.testing.assert_allclose(mean["particle_current_deviation"], current - current.mean(), atol=1e-9)
+    for side in ("right", "left"):
+        rate = mean[f"rate_{side}"]
+        np.testing.assert_allclose(
+            mean[f"rate_{side}_deviation"], rate - np.polyval(np.polyfit(cells, rate, 1), cells), atol=1e-9
+        )
+
+
+def test_moments_and_jump_of_the_flux(measure: Measure) -> None:
+    """With narrow bins, and too few replicas for control variates. Detected mistakes: moments of the density, or of
+    both directions; a jump between the middles of the bins."""
+    result = measure("momentum_flux", **OPEN | {"momentum_bins": 6000, "momentum_max": 90, "replicas": 10})
+    flux, p = result["flux"].mean, result["flux"].axes["momentum"]
+    sides = [np.sign(p) == sign for sign in (-1, 1)]
+
+    def moment(power: int) -> np.ndarray:
+        return np.stack([(flux * p**power)[:, side].sum(axis=1) for side in sides], axis=1)
+
+    square = moment(2) / moment(0)
+    np.testing.assert_allclose(result["square"].mean, square, rtol=1e-4)
+    np.testing.assert_allclose(result["kurtosis"].mean, moment(4) / moment(0) / square**2, rtol=1e-4)
+    assert result["crossings"].mean == pytest.approx(moment(0).sum(axis=1).mean() * (p[1] - p[0]), rel=1e-6)
+    zero = len(p) // 2
+    at = [
+        np.array([np.polyval(np.polyfit(p[part], row[part], 1), 0) for row in flux])
+        for part in (slice(zero, zero + 2), slice(zero - 2, zero))
+    ]
+    np.testing.assert_allclose(result["jump"].mean, at[0] - at[1], atol=1e-9 * flux.max())
+
+
+def test_alpha_and_the_centre_of_a_pulse(measure: Measure) -> None:
+    """Detected mistakes: alpha over another range of times; the centre has five cells on one side."""
+    spread = measure("displacement", **RING, decades=3, relaxation_time=3, observation_time=50, fit_decades=1)
+    variance = spread["variance"]
+    time, late = variance.axes["time"], variance.axes["time"] >= 4.999
+    assert spread["alpha"].mean == pytest.approx(slope(time[late], np.log(variance.mean[late])), rel=1e-9)
+    pulse = measure("energy_pulse", cells=23, particles_per_cell=30, times="0.01,0.013")
+    centre = pulse["energy_difference"].mean[:, 9:14].sum(axis=1) / pulse["injected_energy"].mean
+    np.testing.assert_allclose(pulse["centre_share"].mean, centre, rtol=1e-9)
