@@ -5,6 +5,7 @@ this panel alone differs between machines.
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS
+from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts
 from workflow.lib.identity import panel_of
 from workflow.lib.load import FormatError, Result, cost_file, cpu_seconds
@@ -39,7 +40,6 @@ PROGRAMS = {
     "steady_profile": ("D", style.ORANGE),
     "waiting_time": ("P", style.BLACK),
 }
-GAMMAS = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
 PERCENT = 0.01
 
 
@@ -116,8 +116,8 @@ def draw_bias(axes: Axes, table: pd.DataFrame, name: str, symbol: str) -> None:
         style.cross_out(
             axes, part.cpu_seconds.to_numpy(), part.deviation.abs().to_numpy(), ~part.usable.astype(bool)
         )
-    ends = [f"{value:g}" for value in (table[name].min(), table[name].max())]
-    axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$", ylim=(1e-3, 3))
+    ends = [format_number(value) for value in (table[name].min(), table[name].max())]
+    axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$")
     if name == "relaxation_time":
         style.label_within_decades(axes.xaxis)
     axes.set_xlabel(f"CPU time / s, {symbol} from {ends[0]} to {ends[1]}")
@@ -128,19 +128,20 @@ def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
     part = table[table.series == "target"]
     axes.axhspan(-1, 1, **style.WINDOW)
     axes.axhline(0, **style.GUIDE)
-    for (target, runs), marker in zip(part.groupby("target_error"), "osD^", strict=False):
+    for (target, runs), marker in zip(part.groupby("target_error"), cycle(style.MARKERS), strict=False):
         look = style.points(marker, style.BLUE, "white", label=f"{100 * target:g} %")
         axes.errorbar(runs.cpu_seconds, runs.deviation / target, runs.error / target, **look)
     axes.set(xscale="log", xlabel="CPU time / s", ylabel="deviation / target error")
     style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left", title="target", ncols=3)
-    axes.set_ylim(-4, 5)
+    axes.margins(y=0.35)  # room for the legend
 
 
 def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
     kinetic = table[table.series == "kinetic"].drop_duplicates(["gamma", "error"]).sort_values("cpu_seconds")
-    for (gamma, part), (marker, color, dashes) in zip(kinetic.groupby("gamma"), GAMMAS, strict=False):
-        label = rf"$\gamma = {float(gamma):g}$"
+    looks = zip(*map(cycle, (style.MARKERS, style.SEQUENCE[1:], style.DASHES)), strict=False)
+    for (gamma, part), (marker, color, dashes) in zip(kinetic.groupby("gamma"), looks, strict=False):
+        label = rf"$\gamma = {format_number(float(gamma))}$"
         axes.plot(part.cpu_seconds, part.error, marker=marker, color=color, linestyle=dashes, label=label)
     axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error of the currents")
     axes.legend(loc="lower left")
@@ -164,8 +165,8 @@ def cost_at(table: pd.DataFrame, gamma: str, largest: bool) -> str:
 
 def caption(table: pd.DataFrame) -> str:
     return f"""
-        (a) 1 % of κ costs {cost_at(table, "N", False)}, {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Points: deviation of κ
-        from a long run; dotted: its error; crossed out: not stationary. A longer relaxation lowers the deviation, a longer window both. (d) Deviation over target:
+        (a) 1 % of κ costs {cost_at(table, "N", False)}, {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Deviation of κ from a long run
+        (dotted: its error; crosses: not stationary): a longer relaxation lowers it, a longer window both. (d) Deviation over target:
         {rms_over_target(table)} at most (root mean square). (e) Kinetic equation. {ERRORS}"""
 
 

@@ -1,5 +1,7 @@
 """Style of the figures: sizes, fonts, and colours that are distinct in grey and for colour-blind readers."""
 
+from collections.abc import Iterable
+from itertools import cycle
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
@@ -37,12 +39,12 @@ BLUE, ORANGE, GREEN, VERMILLION, SKY = "C0", "C1", "C2", "C3", "C4"
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
 DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 
-# Marker and colour by gamma.
-BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
+MARKERS = ["o", "s", "^", "D", "v"]  # for an ordered set of series
 
 # Style of the shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
+# Lines at this zorder or below are no data: render does not look whether they are in the frame.
 GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
 POINTS: Look = {
@@ -98,6 +100,13 @@ def apply() -> None:
 def points(marker: str, color: str, face: str | None = None, **more: Any) -> Look:
     """Style of measured points. face: fill colour of the marker, if it differs from its edge."""
     return {**POINTS, "marker": marker, "color": color, "markerfacecolor": face or color, **more}
+
+
+def by_gamma(gammas: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Marker and colour for each gamma: circles for N, as in the paper, and squares and so on for others."""
+    others = (gamma for gamma in dict.fromkeys(gammas) if gamma != "N")
+    colours = cycle((VERMILLION, GREEN, ORANGE, SKY))
+    return {"N": ("o", BLUE)} | dict(zip(others, zip(cycle(MARKERS[1:]), colours, strict=False), strict=False))
 
 
 def band(axes: Axes, x: ArrayLike, value: ArrayLike, error: ArrayLike, color: str) -> None:

@@ -131,7 +131,8 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
 
 def _gas(ring: Result) -> str:
     gas = chain(ring)
-    return f"ζ = {format_number(gas.zeta)}, M = {format_number(gas.mass)}"
+    zeta, mass = (format_number(float(f"{value:.13g}")) for value in (gas.zeta, gas.mass))
+    return f"ζ = {zeta}, M = {mass}"
 
 
 def _last_time(ring: Result) -> float:
