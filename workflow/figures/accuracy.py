@@ -17,6 +17,7 @@ from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts
 from workflow.lib.identity import panel_of
 from workflow.lib.load import FormatError, Result, cost_file, cpu_seconds
+from workflow.physics import run_parameters
 
 TITLE = "Accuracy against time"
 UNITS = {"cpu_seconds": "second", "cost_of_1_percent": "second", "cost_without_control_variates": "second"}
@@ -53,6 +54,11 @@ def seconds(result: Result) -> float:
     return time
 
 
+def gamma_of(result: Result) -> str:
+    """Gamma as text, empty for a program without it."""
+    return run_parameters.gamma(result) if "gamma" in result.parameters else ""
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run with the relative error of its target quantity, and for sampling programs the CPU time
     for an error of 1 %, as an error falls with the square root of the number of replicas."""
@@ -60,7 +66,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         origin, time = result.provenance, seconds(result)
         row = {"panel": panel_of(result.path), "series": result.series, "program": origin["program"]}
-        row |= {"cells": result.parameters.get("cells"), "gamma": str(result.parameters.get("gamma"))}
+        row |= {"cells": result.parameters.get("cells"), "gamma": gamma_of(result)}
         row |= {
             name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")
         }
@@ -87,13 +93,14 @@ def draw_costs(axes: Axes, table: pd.DataFrame) -> None:
     """Plots the cost of 1 % against N; of runs of one program and size, the geometric mean. Open: gamma < N;
     dotted: without control variates."""
     costs = ["cost_of_1_percent", "cost_without_control_variates"]
-    for (program, gamma), part in table.groupby(["program", table.gamma == "N"]):
-        marker, color = PROGRAMS[program]
-        label = f"{program.replace('_', ' ')}" + ("" if gamma else r", $\gamma = 1$")
+    for (program, gamma), part in table.groupby(["program", "gamma"]):
+        marker, color = PROGRAMS.get(program, ("X", style.SKY))
+        every = gamma in ("N", "")
+        label = f"{program.replace('_', ' ')}" + rf", $\gamma = {gamma}$" * (not every)
         mean = np.exp(np.log(part.set_index("cells")[costs]).groupby(level=0).mean())
         line = "-" if len(mean) > 2 else "none"
-        face = color if gamma else "white"
-        look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + gamma}
+        face = color if every else "white"
+        look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + every}
         axes.plot(mean.index, mean[costs[0]], linestyle=line, markerfacecolor=face, label=label, **look)
         if line != "none":
             axes.plot(mean.index, mean[costs[1]], linestyle=(0, (1, 1)), marker="", color=color)
@@ -118,8 +125,7 @@ def draw_bias(axes: Axes, table: pd.DataFrame, name: str, symbol: str) -> None:
         )
     ends = [format_number(value) for value in (table[name].min(), table[name].max())]
     axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$")
-    if name == "relaxation_time":
-        style.label_within_decades(axes.xaxis)
+    style.label_within_decades(axes.xaxis)
     axes.set_xlabel(f"CPU time / s, {symbol} from {ends[0]} to {ends[1]}")
 
 
@@ -178,7 +184,7 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_costs(axes["a"], sampled)
     draw_bias(axes["b"], table[table.series == "relaxation"], "relaxation_time", "relaxation time")
     draw_bias(axes["c"], table[table.series == "window"], "observation_time", "window")
-    axes["b"].legend(loc="upper right", title="start")
+    axes["b"].legend(loc="best", title="start")
     draw_targets(axes["d"], table)
     draw_kinetic(axes["e"], table)
     style.letter(*axes.values())

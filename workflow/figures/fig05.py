@@ -66,15 +66,17 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    most = dict.fromkeys(LOOKS, "(unknown)")
-    for name, part in table[table.sigma.abs() <= STEEP].groupby("series"):
+    dense = [result for result in results if result.series == "dense"]
+    main = [result for result in results if result not in dense] or results
+    names = {"paper": "", "zero-momentum": "with total momentum Π = 0 "}
+    names["dense"] = f"with {parameters(dense, 'particles_per_cell')} "
+    most = []
+    for name, part in table[table.sigma.abs() <= STEEP].groupby("series", sort=False):
         far = part.loc[part.deviation.abs().idxmax()]
-        most[name] = format_with_error(far.deviation, far.mu_error)
-    main = [result for result in results if result.series != "dense"]
-    dense = parameters([result for result in results if result not in main], "particles_per_cell")
+        most.append(f"{names.get(name, f'in {name} ')}by {format_with_error(far.deviation, far.mu_error)}")
     return f"""
         The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π. (b) Here ({parameters(main, "cells", "particles_per_cell", "temperature", paper=PAPER["fig05"])})
-        μ differs by {most["paper"]} at most for |σ| ≤ {format_number(STEEP)}; with total momentum Π = 0 by {most["zero-momentum"]}; with {dense} by {most["dense"]}.
+        μ differs, at most for |σ| ≤ {format_number(STEEP)}, {listed(sorted(most))}.
         Dashes: the law at the conserved Π. {ERRORS}"""
 
 

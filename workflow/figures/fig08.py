@@ -100,7 +100,9 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
     for gamma, line in theory.groupby("gamma"):
         color = looks.get(gamma, ("", style.BLACK))[1]
-        above.plot(line.cells, line.mean_field_kappa, "--", color=color, label=rf"$\gamma = {gamma}$, mean field")
+        above.plot(
+            line.cells, line.mean_field_kappa, "--", color=color, label=rf"$\gamma = {gamma}$, mean field"
+        )
         below.plot(line.middle, line.mean_field_exponent_to_next, "--", color=color)
     style.cross_out(above, table.cells, table.kappa, ~table.usable)
     above.set(xscale="log", yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")

@@ -126,7 +126,9 @@ def draw_limits(axes: Axes, table: pd.DataFrame) -> None:
 def draw_partings(axes: Axes, table: pd.DataFrame) -> None:
     for (cells, part), (marker, color) in zip(table.groupby("cells"), cycle(LOOKS), strict=False):
         look = style.points(marker, color) | {"linestyle": "none"}
-        axes.errorbar(part.collisions, part.difference.clip(lower=10.0**IDENTICAL), label=f"$N = {cells}$", **look)
+        axes.errorbar(
+            part.collisions, part.difference.clip(lower=10.0**IDENTICAL), label=f"$N = {cells}$", **look
+        )
         both = np.sqrt(2) * part.relative_error  # of the difference of two independent means
         axes.plot(part.collisions, both, color=color, linestyle="dotted")
     axes.set(xscale="log", yscale="log", xlabel="collisions of a chain", ylabel="difference of energies")
@@ -173,4 +175,8 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_limits(panels[1], known)
     draw_partings(panels[2], pairs)
     style.letter(*panels)
-    return figure, pd.concat([walks, known, pairs]), caption(walks, pairs, results, of_order_gamma(results, known))
+    return (
+        figure,
+        pd.concat([walks, known, pairs]),
+        caption(walks, pairs, results, of_order_gamma(results, known)),
+    )

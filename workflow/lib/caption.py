@@ -40,7 +40,11 @@ def format_number(value: float) -> str:
     give the value back; with a typographic minus sign."""
     number = float(value)
     fraction = Fraction(number).limit_denominator(9)
-    if math.isclose(fraction, number, rel_tol=1e-12) and fraction.denominator in (2, 3, 9) and abs(fraction.numerator) < 1000:
+    if (
+        math.isclose(fraction, number, rel_tol=1e-12)
+        and fraction.denominator in (2, 3, 9)
+        and abs(fraction.numerator) < 1000
+    ):
         return str(fraction).replace("-", "−")
     digits, _, power = repr(number).partition("e")
     text = digits.removesuffix(".0") + (f"·{power_of_ten(int(power))}" if power else "")
@@ -63,7 +67,9 @@ def parameters(results: Sequence[Result], *names: str, paper: Mapping[str, Any] 
         differ = name in stated and not all(_stated(value, stated[name]) for value in values)
         if values and (differ or name in names):
             symbol = SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}")
-            texts[name] = symbol.format(_values(values)) + f" (paper: {_values(stated.get(name, ()))})" * differ
+            texts[name] = (
+                symbol.format(_values(values)) + f" (paper: {_values(stated.get(name, ()))})" * differ
+            )
     if {*BATHS} <= texts.keys() & stated.keys() and not any("paper" in texts[name] for name in BATHS):
         texts = {name: text for name, text in texts.items() if name not in BATHS} | {"": "the paper's baths"}
     return ", ".join(texts.values())

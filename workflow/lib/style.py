@@ -106,7 +106,9 @@ def by_gamma(gammas: Iterable[str]) -> dict[str, tuple[str, str]]:
     """Marker and colour for each gamma: circles for N, as in the paper, and squares and so on for others."""
     others = (gamma for gamma in dict.fromkeys(gammas) if gamma != "N")
     colours = cycle((VERMILLION, GREEN, ORANGE, SKY))
-    return {"N": ("o", BLUE)} | dict(zip(others, zip(cycle(MARKERS[1:]), colours, strict=False), strict=False))
+    return {"N": ("o", BLUE)} | dict(
+        zip(others, zip(cycle(MARKERS[1:]), colours, strict=False), strict=False)
+    )
 
 
 def band(axes: Axes, x: ArrayLike, value: ArrayLike, error: ArrayLike, color: str) -> None:

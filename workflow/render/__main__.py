@@ -111,7 +111,16 @@ def _open_hdf5(name: bytes, *arguments: Any, original: Any = h5py.h5f.open, **na
 if __name__ == "__main__":
     try:
         render(**json.loads(sys.argv[1]))
-    except (FormatError, OSError, NoValueError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError) as error:
+    except (
+        FormatError,
+        OSError,
+        NoValueError,
+        TheoryError,
+        UndeclaredError,
+        UnitsError,
+        TableError,
+        EditedError,
+    ) as error:
         sys.exit(str(error))
     except KeyboardInterrupt:
         sys.exit(130)

@@ -20,7 +20,11 @@ def data_lines(axes: Axes) -> Iterator[Line2D]:
     bars = [each for each in axes.containers if isinstance(each, ErrorbarContainer)]
     caps = {cap for container in bars for cap in container.lines[1]}
     for line in axes.get_lines():
-        if line not in caps and line.get_transform() == axes.transData and line.get_zorder() > GUIDE["zorder"]:
+        if (
+            line not in caps
+            and line.get_transform() == axes.transData
+            and line.get_zorder() > GUIDE["zorder"]
+        ):
             yield line
 
 
@@ -44,7 +48,9 @@ def with_outside(caption: str, figure: Figure) -> str:
     the figure is finite."""
     points = [(axes, finite_points(axes)) for axes in figure.axes]
     if not any(of_axes for _, of_axes in points) and any(any(data_lines(axes)) for axes in figure.axes):
-        raise NoValueError("no value to draw: all points are undefined, as κ is between baths of one temperature")
+        raise NoValueError(
+            "no value to draw: all points are undefined, as κ is between baths of one temperature"
+        )
     outside = sum(
         not (_inside(x, axes.get_xlim()) and _inside(y, axes.get_ylim()))
         for axes, of_axes in points
