@@ -2,7 +2,7 @@
 
 import importlib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -68,14 +68,16 @@ def statements(text: str) -> Iterator[tuple[str, str]]:
         yield from ((NAMES[symbol], value) for value in re.split(", | and ", values))
 
 
-def texts_of(values: Any) -> list[str]:
-    several = values if isinstance(values, list) else [values]
-    return [value if isinstance(value, str) else format_number(value) for value in several]
+def texts_of(values: Iterable[Any]) -> list[str]:
+    return [value if isinstance(value, str) else format_number(value) for value in values]
 
 
 def stated_in_the_results(results: list[Result]) -> set[tuple[str, str]]:
     return {
-        (name, text) for one in results for name, value in one.parameters.items() for text in texts_of(value)
+        (name, text)
+        for one in results
+        for name, value in one.parameters.items()
+        for text in texts_of([value])
     }
 
 

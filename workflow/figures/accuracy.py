@@ -54,11 +54,6 @@ def seconds(result: Result) -> float:
     return time
 
 
-def gamma_of(result: Result) -> str:
-    """Gamma as text, empty for a program without it."""
-    return run_parameters.gamma(result) if "gamma" in result.parameters else ""
-
-
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run with the relative error of its target quantity, and for sampling programs the CPU time
     for an error of 1 %, as an error falls with the square root of the number of replicas."""
@@ -66,7 +61,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         origin, time = result.provenance, seconds(result)
         row = {"panel": panel_of(result.path), "series": result.series, "program": origin["program"]}
-        row |= {"cells": result.parameters.get("cells"), "gamma": gamma_of(result)}
+        row |= {"cells": result.parameters.get("cells"), "gamma": run_parameters.gamma(result)}
         row |= {
             name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")
         }
@@ -95,12 +90,12 @@ def draw_costs(axes: Axes, table: pd.DataFrame) -> None:
     costs = ["cost_of_1_percent", "cost_without_control_variates"]
     for (program, gamma), part in table.groupby(["program", "gamma"]):
         marker, color = PROGRAMS.get(program, ("X", style.SKY))
-        every = gamma in ("N", "")
+        every = gamma in ("N", "none")
         label = f"{program.replace('_', ' ')}" + rf", $\gamma = {gamma}$" * (not every)
         mean = np.exp(np.log(part.set_index("cells")[costs]).groupby(level=0).mean())
         line = "-" if len(mean) > 2 else "none"
         face = color if every else "white"
-        look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + every}
+        look: style.Look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + every}
         axes.plot(mean.index, mean[costs[0]], linestyle=line, markerfacecolor=face, label=label, **look)
         if line != "none":
             axes.plot(mean.index, mean[costs[1]], linestyle=(0, (1, 1)), marker="", color=color)
@@ -134,7 +129,7 @@ def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
     part = table[table.series == "target"]
     axes.axhspan(-1, 1, **style.WINDOW)
     axes.axhline(0, **style.GUIDE)
-    for (target, runs), marker in zip(part.groupby("target_error"), cycle(style.MARKERS), strict=False):
+    for (target, runs), (marker, _) in zip(part.groupby("target_error"), cycle(style.LOOKS), strict=False):
         look = style.points(marker, style.BLUE, "white", label=f"{100 * target:g} %")
         axes.errorbar(runs.cpu_seconds, runs.deviation / target, runs.error / target, **look)
     axes.set(xscale="log", xlabel="CPU time / s", ylabel="deviation / target error")
@@ -145,8 +140,8 @@ def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
 
 def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
     kinetic = table[table.series == "kinetic"].drop_duplicates(["gamma", "error"]).sort_values("cpu_seconds")
-    looks = zip(*map(cycle, (style.MARKERS, style.SEQUENCE[1:], style.DASHES)), strict=False)
-    for (gamma, part), (marker, color, dashes) in zip(kinetic.groupby("gamma"), looks, strict=False):
+    looks = zip(cycle(style.LOOKS), cycle(style.DASHES), strict=False)
+    for (gamma, part), ((marker, color), dashes) in zip(kinetic.groupby("gamma"), looks, strict=False):
         label = rf"$\gamma = {format_number(float(gamma))}$"
         axes.plot(part.cpu_seconds, part.error, marker=marker, color=color, linestyle=dashes, label=label)
     axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="relative error of the currents")

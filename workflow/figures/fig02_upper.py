@@ -68,15 +68,7 @@ def draw(results: Sequence[Result]) -> Parts:
     for temperature, (name, x, lift) in zip(temperatures, marks, strict=True):
         above.axhline(temperature, **style.GUIDE)
         side = "bottom" if lift > 0 else "top"
-        above.annotate(
-            name,
-            (x, temperature),
-            (0, lift),
-            textcoords="offset points",
-            ha="center",
-            va=side,
-            size=style.label_size(),
-        )
+        style.name_point(above, name, (x, temperature), (0, lift), ha="center", va=side)
     above.margins(y=0.1)  # room for the names of the guides
     above.set(ylabel=f"temperature ({style.UNIT_SYSTEM})", xlim=(0, 1))
     style.second_axis(above, 0.5, "kinetic energy $E_K$")

@@ -60,8 +60,8 @@ def at_centre(table: pd.DataFrame) -> pd.Series:
 def draw_end(axes: Axes, table: pd.DataFrame, sign: int, shown: float, title: str) -> None:
     """Plots the particles that leave at one end: points from simulations, lines from the mean field."""
     half = table[(np.sign(table.momentum) == sign) & (table.momentum.abs() < shown)]
-    looks = zip(*map(cycle, (style.SEQUENCE, style.DASHES, style.MARKERS)), strict=False)
-    for (size, rows), (color, dashes, marker) in zip(half.groupby("cells"), looks, strict=False):
+    looks = zip(cycle(style.SEQUENCE), cycle(style.DASHES), cycle(style.LOOKS), strict=False)
+    for (size, rows), (color, dashes, (marker, _)) in zip(half.groupby("cells"), looks, strict=False):
         points, line = (rows[rows.kind == kind] for kind in (SIMULATION, MEAN_FIELD))
         look = style.points(marker, color, markersize=2.5, capsize=0, label=f"$N = {size}$")
         axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look)

@@ -115,16 +115,9 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
             look = {"marker": marker, "color": color, **style.POINTS}
             axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
             axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
-            text, position = format_with_error(end.jump, end.jump_error), (0.98, -row + shift)
-            axes.annotate(
-                text,
-                position,
-                xycoords=axes.get_yaxis_transform(),
-                ha="right",
-                va="center",
-                size=style.label_size(),
-                color=color,
-            )
+            text: style.Look = {"ha": "right", "va": "center", "size": style.label_size(), "color": color}
+            text |= {"transform": axes.get_yaxis_transform()}
+            axes.text(0.98, -row + shift, format_with_error(end.jump, end.jump_error), **text)
     jumps = table.jump.abs()
     if (
         jumps.min() < FEW * jumps.max()

@@ -84,14 +84,7 @@ def draw(results: Sequence[Result]) -> Parts:
         guide = factor * table.variance.iloc[-1] * (late / last) ** power
         above.plot(late, guide, **style.GUIDE)
         name, lift = ("$t^2$", (-18, -2)) if power == 2 else ("$t$", (-8, -14))
-        above.annotate(
-            name,
-            (last, guide.iloc[-1]),
-            lift,
-            textcoords="offset points",
-            size=style.label_size(),
-            ha="right",
-        )
+        style.name_point(above, name, (last, guide.iloc[-1]), lift, ha="right")
     for value in (1, 2):
         below.axhline(value, **style.GUIDE)
     for axes in (above, below):

@@ -61,8 +61,7 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     power = part.cells**slope
     guide = BELOW * (part.kappa / power).min() * power
     axes.plot(part.cells, guide, **style.GUIDE)
-    end = (part.cells.iloc[-1], guide.iloc[-1])
-    axes.annotate(name, end, (4, 0), textcoords="offset points", size=style.label_size(), va="center")
+    style.name_point(axes, name, (part.cells.iloc[-1], guide.iloc[-1]), (4, 0), va="center")
 
 
 def course(table: pd.DataFrame, gamma: str) -> str:

@@ -70,14 +70,7 @@ def draw_guides(above: Axes, below: Axes, slopes: Guides, table: pd.DataFrame) -
         if len(seen):
             law = start * time**slope
             above.plot(seen.time, law, **style.GUIDE)
-            above.annotate(
-                name,
-                (seen.time.iloc[-1], law.iloc[-1]),
-                (2, 0),
-                textcoords="offset points",
-                size=style.label_size(),
-                va="center",
-            )
+            style.name_point(above, name, (seen.time.iloc[-1], law.iloc[-1]), (2, 0), va="center")
         style.guide_at(below, -slope, exponent)
     precise = table[table.octave_exponent_error < SPAN].octave_exponent
     if values := [*(-slope for slope in slopes), *precise]:

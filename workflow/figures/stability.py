@@ -14,7 +14,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, parameters, power_of_ten, scientific
+from workflow.lib.caption import ERRORS, parameters, scientific
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 
@@ -31,9 +31,7 @@ LIMITS = {  # series in the order of the panel, with the parameter that is extre
     "narrow": ("cell_length", r"\lambda"),
     "wide": ("cell_length", r"\lambda"),
 }
-LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.GREEN), ("D", style.ORANGE)]
-IDENTICAL = -17  # power of ten at which differences of 0 are plotted
-SURE = 3  # standard errors above which a deviation is significant
+IDENTICAL = 1e-17  # where differences of 0 are plotted
 
 
 def collisions(result: Result) -> float:
@@ -105,7 +103,7 @@ def partings(results: Sequence[Result]) -> pd.DataFrame:
 
 def draw_drifts(axes: Axes, table: pd.DataFrame) -> None:
     """Plots drifts of the energy, and with open symbols of the momentum."""
-    for (rule, part), (marker, color) in zip(table.groupby("rule"), cycle(LOOKS), strict=False):
+    for (rule, part), (marker, color) in zip(table.groupby("rule"), cycle(style.LOOKS), strict=False):
         for name, face in (("energy_drift", color), ("momentum_drift", "white")):
             label = f"{name.partition('_')[0]}, {rule}"
             axes.errorbar(part.collisions, part[name], **style.points(marker, color, face, label=label))
@@ -124,11 +122,9 @@ def draw_limits(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_partings(axes: Axes, table: pd.DataFrame) -> None:
-    for (cells, part), (marker, color) in zip(table.groupby("cells"), cycle(LOOKS), strict=False):
+    for (cells, part), (marker, color) in zip(table.groupby("cells"), cycle(style.LOOKS), strict=False):
         look = style.points(marker, color) | {"linestyle": "none"}
-        axes.errorbar(
-            part.collisions, part.difference.clip(lower=10.0**IDENTICAL), label=f"$N = {cells}$", **look
-        )
+        axes.errorbar(part.collisions, part.difference.clip(lower=IDENTICAL), label=f"$N = {cells}$", **look)
         both = np.sqrt(2) * part.relative_error  # of the difference of two independent means
         axes.plot(part.collisions, both, color=color, linestyle="dotted")
     axes.set(xscale="log", yscale="log", xlabel="collisions of a chain", ylabel="difference of energies")
@@ -147,27 +143,20 @@ def parted(table: pd.DataFrame) -> str:
     return f"part after {', '.join(after)} collisions, averages by at most {score:.1f} errors"
 
 
-def of_order_gamma(results: Sequence[Result], table: pd.DataFrame) -> str:
-    """A clause on the largest γ of ballistic particles, if the deviation from the limit is significant."""
-    largest = max((float(one.parameters["gamma"]) for one in results if one.series == "passing"), default=0)
-    rows = table[(table.part == "passing") & ((table.ratio - 1).abs() > SURE * table.ratio_error)]
-    return f"; at γ = {scientific(largest, 1)} a term of order γ is seen" if len(rows) else ""
-
-
-def caption(walks: pd.DataFrame, pairs: pd.DataFrame, results: Sequence[Result], order: str) -> str:
+def caption(walks: pd.DataFrame, pairs: pd.DataFrame, sigma: str) -> str:
     longest = walks[walks.observation_time == walks.observation_time.max()].groupby("rule").energy_drift.max()
     changes = ", ".join(f"by {scientific(drift)} {RULES.get(rule, rule)}" for rule, drift in longest.items())
-    sigma = parameters([result for result in results if result.series == "rounding"], "sigma")
-    same = f"; {power_of_ten(IDENTICAL)}: none" if (pairs.difference < 10.0**IDENTICAL).any() else ""
+    same = f"; {scientific(IDENTICAL, 1)}: none" if (pairs.difference < IDENTICAL).any() else ""
     return f"""
         (a) In {scientific(walks.collisions.max())} collisions at {sigma} the energy changes {changes}. (b) Energy
-        current over that of the limit{order}. (c) In two units of length trajectories
+        current over that of the limit. (c) In two units of length trajectories
         {parted(pairs)} (dotted: one error{same}). {ERRORS}"""
 
 
 @plots(f"rounding unit tripled {' '.join(LIMITS)}")
 def draw(results: Sequence[Result]) -> Parts:
-    walks = drifts([result for result in results if result.series == "rounding"])
+    rounding = [result for result in results if result.series == "rounding"]
+    walks = drifts(rounding)
     known = limits([result for name in LIMITS for result in results if result.series == name])
     pairs = partings([result for result in results if result.series in ("unit", "tripled")])
     figure, panels = plt.subplots(1, 3, figsize=(3 * style.COLUMN, style.HEIGHT))
@@ -175,8 +164,4 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_limits(panels[1], known)
     draw_partings(panels[2], pairs)
     style.letter(*panels)
-    return (
-        figure,
-        pd.concat([walks, known, pairs]),
-        caption(walks, pairs, results, of_order_gamma(results, known)),
-    )
+    return figure, pd.concat([walks, known, pairs]), caption(walks, pairs, parameters(rounding, "sigma"))

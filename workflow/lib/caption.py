@@ -26,11 +26,8 @@ BATHS = ("nu_left", "nu_right", "temperature_left", "temperature_right")
 
 RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 FEW = 3  # runs that are named one by one
-DOUBTS = {
-    UNDEFINED: "Without a value",
-    NOT_STATIONARY: "Not stationary",
-    NOT_TESTED: "With too few replicas to test whether stationary",
-}
+DOUBTS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
+DOUBTS |= {NOT_TESTED: "With too few replicas to test whether stationary"}
 ERRORS = "Bars show standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -40,15 +37,10 @@ def format_number(value: float) -> str:
     give the value back; with a typographic minus sign."""
     number = float(value)
     fraction = Fraction(number).limit_denominator(9)
-    if (
-        math.isclose(fraction, number, rel_tol=1e-12)
-        and fraction.denominator in (2, 3, 9)
-        and abs(fraction.numerator) < 1000
-    ):
-        return str(fraction).replace("-", "−")
+    exact = math.isclose(fraction, number, rel_tol=1e-12) and fraction.denominator in (2, 3, 9)
     digits, _, power = repr(number).partition("e")
-    text = digits.removesuffix(".0") + (f"·{power_of_ten(int(power))}" if power else "")
-    return text.replace("-", "−")
+    text = str(fraction) if exact and abs(fraction.numerator) < 1000 else digits.removesuffix(".0")
+    return text.replace("-", "−") + (f"·{power_of_ten(int(power))}" if power else "")
 
 
 def listed(texts: Iterable[str]) -> str:
@@ -57,38 +49,32 @@ def listed(texts: Iterable[str]) -> str:
     return f"{', '.join(most)} and {last}" if most else last
 
 
-def parameters(results: Sequence[Result], *names: str, paper: Mapping[str, Any] | None = None) -> str:
+def parameters(results: Sequence[Result], *names: str, paper: Mapping[str, list[Any]] | None = None) -> str:
     """The named parameters that the results have, with all their values: `N = 11, σ = −1/2 and 1/2`; by
     the name of the option without a symbol. paper: what it states (physics/paper.py). All parameters that
     differ from it are named, with its values: `n = 40 (paper: 20)`; equal baths are `the paper's baths`."""
-    stated, texts = {name: _several(value) for name, value in (paper or {}).items()}, {}
+    stated, texts = paper or {}, {}
     for name in dict.fromkeys((*names, *stated)):
         values = {result.parameters[name] for result in results if name in result.parameters}
-        differ = name in stated and not all(_stated(value, stated[name]) for value in values)
+        differ = name in stated and not all(_agrees(value, stated[name]) for value in values)
         if values and (differ or name in names):
-            symbol = SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}")
-            texts[name] = (
-                symbol.format(_values(values)) + f" (paper: {_values(stated.get(name, ()))})" * differ
-            )
+            text = SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}").format(_as_list(values))
+            texts[name] = f"{text} (paper: {_as_list(stated[name])})" if differ else text
     if {*BATHS} <= texts.keys() & stated.keys() and not any("paper" in texts[name] for name in BATHS):
         texts = {name: text for name, text in texts.items() if name not in BATHS} | {"": "the paper's baths"}
     return ", ".join(texts.values())
 
 
-def _several(value: Any) -> Collection[Any]:
-    return value if isinstance(value, list) else [value]
-
-
-def _stated(value: Any, stated: Collection[Any]) -> bool:
-    """Whether a value is among those of the paper, of which numbers as text are rounded."""
+def _agrees(value: Any, stated: Collection[Any]) -> bool:
     return value in stated or (not isinstance(value, str) and f"{value:.3f}" in stated)
 
 
-def _values(values: Collection[Any]) -> str:
+def _as_list(values: Collection[Any]) -> str:
     """Numbers in ascending order, then words."""
     numbers = sorted(value for value in values if not isinstance(value, str))
-    words = sorted(value for value in values if isinstance(value, str))
-    return listed([*map(format_number, numbers), *words]) if values else ""
+    return listed(
+        [*map(format_number, numbers), *sorted(value for value in values if isinstance(value, str))]
+    )
 
 
 def rule(result: Result) -> str:

@@ -21,7 +21,7 @@ def start(result: Result) -> str | float:
 
 
 def named_start(result: Result) -> str:
-    """The start in words: the paper's one is `from rest`."""
+    """The start in words, `from rest` in the paper."""
     words = {"particles": "from a Gaussian start", 0: "from rest"}
     return words.get(start(result)) or f"from scatterers at T = {format_number(float(start(result)))}"
 

@@ -12,9 +12,8 @@ def both_rates(result: Result) -> float:
 
 
 def gamma(result: Result) -> str:
-    """Value of gamma as text: N or a number."""
-    value = result.parameters["gamma"]
-    return f"{value}".removesuffix(".0")
+    """Value of gamma as text: N or a number; `none` of a program without it."""
+    return str(result.parameters.get("gamma", "none")).removesuffix(".0")
 
 
 def mass(result: Result) -> float:

@@ -42,7 +42,7 @@ def render(
 ) -> None:
     """Writes the files of a panel. script: its path; stem: FOLDER/QUALITY/PANEL; results: paths; inputs: other
     files and folders that the script uses; planned: identity of the panel, "" if none is planned. Raises
-    FormatError, OSError, NoValueError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError."""
+    REFUSED, OSError."""
     panel, sources = Path(stem).name, sources_of_panel(script, inputs)
     identity = panel_identity(panel, results, sources)
     if planned not in (identity, ""):
@@ -108,19 +108,12 @@ def _open_hdf5(name: bytes, *arguments: Any, original: Any = h5py.h5f.open, **na
     return original(name, *arguments, **named)
 
 
+REFUSED = (FormatError, NoValueError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError)
+
 if __name__ == "__main__":
     try:
         render(**json.loads(sys.argv[1]))
-    except (
-        FormatError,
-        OSError,
-        NoValueError,
-        TheoryError,
-        UndeclaredError,
-        UnitsError,
-        TableError,
-        EditedError,
-    ) as error:
+    except (*REFUSED, OSError) as error:
         sys.exit(str(error))
     except KeyboardInterrupt:
         sys.exit(130)

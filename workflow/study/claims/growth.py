@@ -7,15 +7,7 @@ import numpy as np
 
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.study.results import (
-    MissingError,
-    Results,
-    by_size,
-    combination,
-    estimate,
-    log_slope,
-    power,
-)
+from workflow.study.results import MissingError, Results, by_size, combination, estimate, log_slope, power
 from workflow.study.rings import chain
 from workflow.study.verdict import Estimate
 
