@@ -104,8 +104,9 @@ def draw(results: Sequence[Result]) -> Parts:
         )
         below.plot(line.middle, line.mean_field_exponent_to_next, "--", color=color)
     style.cross_out(above, table.cells, table.kappa, ~table.usable)
-    above.set(xscale="log", yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
-    below.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
+    style.against_size(below)
+    above.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
+    below.set_ylabel(r"$d\ln\kappa/d\ln N$")
     above.margins(x=0.1)  # room for the names of the guides
     handles, labels = above.get_legend_handles_labels()
     above.legend(handles[::-1], labels[::-1], loc="upper left")
