@@ -71,14 +71,9 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
             label = "centre of mass, random"
-            above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=1, label=label)
-            style.band(
-                above,
-                table.time,
-                table.centre_of_mass_variance,
-                table.centre_of_mass_variance_error,
-                look["color"],
-            )
+            drift, error = table.centre_of_mass_variance, table.centre_of_mass_variance_error
+            above.plot(table.time, drift, color=look["color"], zorder=1, label=label)
+            style.band(above, table.time, drift, error, look["color"])
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
         guide = factor * table.variance.iloc[-1] * (late / last) ** power

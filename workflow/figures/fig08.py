@@ -98,10 +98,8 @@ def draw(results: Sequence[Result]) -> Parts:
         above.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
         below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
     for gamma, line in theory.groupby("gamma"):
-        color = looks.get(gamma, ("", style.BLACK))[1]
-        above.plot(
-            line.cells, line.mean_field_kappa, "--", color=color, label=rf"$\gamma = {gamma}$, mean field"
-        )
+        color, label = looks.get(gamma, ("", style.BLACK))[1], rf"$\gamma = {gamma}$, mean field"
+        above.plot(line.cells, line.mean_field_kappa, "--", color=color, label=label)
         below.plot(line.middle, line.mean_field_exponent_to_next, "--", color=color)
     style.cross_out(above, table.cells, table.kappa, ~table.usable)
     style.against_size(below)
