@@ -24,8 +24,8 @@ def test_fig05() -> None:
     ]  # fmt: skip
     (above, below), table, caption = draw("fig05", runs)
     shown = [over(part, "mu") for part in (runs[:2], runs[2:])]
-    assert_points(above, *((sigma, *each) for each in shown), ([], [], []))
-    assert_points(below, *((sigma, 10, 1e3 * error) for _, error in shown), ([], [], []))
+    assert_points(above, *((sigma, *each) for each in shown))
+    assert_points(below, *((sigma, 10, 1e3 * error) for _, error in shown))
     mass = 11 * np.array([1 / 3, 3]) + 11 * 20 / 3 - 11
     for momentum in (11 * 20 / 3, 0):
         part = (1 - momentum / mass) / mass
@@ -83,7 +83,7 @@ def test_fig07() -> None:
         for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
-    assert "is 1.800(18) at N = 11 and 1.100(11) with zero total momentum" in caption
+    assert "is 1.800(18), and 1.100(11) with zero total momentum" in caption
 
 
 def test_fig07_inset() -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.caption import BATHS, PAPERS_BATHS
+from workflow.lib.caption import BATHS
+from workflow.physics.paper import PAPER
 from workflow.pipeline.described import options_of_programs
 
 with (ROOT / "docs/gallery/numbers.csv").open(newline="") as file:
@@ -80,7 +81,8 @@ def test_the_version_is_that_of_the_citation() -> None:
 
 def test_the_papers_baths_are_the_defaults_of_the_programs() -> None:
     options = options_of_programs()["conductivity"]
-    assert [options[name.replace("_", "-")]["default"] for name in BATHS] == pytest.approx(PAPERS_BATHS)
+    defaults = [options[name.replace("_", "-")]["default"] for name in BATHS]
+    assert defaults == pytest.approx([float(PAPER["fig02"][name][0]) for name in BATHS], rel=1e-5)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ this panel alone differs between machines.
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,10 +13,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS
+from workflow.lib.caption import ERRORS, format_number
 from workflow.lib.figure import Parts
 from workflow.lib.identity import panel_of
 from workflow.lib.load import FormatError, Result, cost_file, cpu_seconds
+from workflow.physics import run_parameters
 
 TITLE = "Accuracy against time"
 UNITS = {"cpu_seconds": "second", "cost_of_1_percent": "second", "cost_without_control_variates": "second"}
@@ -39,7 +41,6 @@ PROGRAMS = {
     "steady_profile": ("D", style.ORANGE),
     "waiting_time": ("P", style.BLACK),
 }
-GAMMAS = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
 PERCENT = 0.01
 
 
@@ -60,7 +61,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         origin, time = result.provenance, seconds(result)
         row = {"panel": panel_of(result.path), "series": result.series, "program": origin["program"]}
-        row |= {"cells": result.parameters.get("cells"), "gamma": str(result.parameters.get("gamma"))}
+        row |= {"cells": result.parameters.get("cells"), "gamma": run_parameters.gamma(result)}
         row |= {
             name: result.parameters.get(name) for name in ("start", "relaxation_time", "observation_time")
         }
@@ -87,13 +88,14 @@ def draw_costs(axes: Axes, table: pd.DataFrame) -> None:
     """Plots the cost of 1 % against N; of runs of one program and size, the geometric mean. Open: gamma < N;
     dotted: without control variates."""
     costs = ["cost_of_1_percent", "cost_without_control_variates"]
-    for (program, gamma), part in table.groupby(["program", table.gamma == "N"]):
-        marker, color = PROGRAMS[program]
-        label = f"{program.replace('_', ' ')}" + ("" if gamma else r", $\gamma = 1$")
+    for (program, gamma), part in table.groupby(["program", "gamma"]):
+        marker, color = PROGRAMS.get(program, ("X", style.SKY))
+        every = gamma in ("N", "none")
+        label = f"{program.replace('_', ' ')}" + rf", $\gamma = {gamma}$" * (not every)
         mean = np.exp(np.log(part.set_index("cells")[costs]).groupby(level=0).mean())
         line = "-" if len(mean) > 2 else "none"
-        face = color if gamma else "white"
-        look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + gamma}
+        face = color if every else "white"
+        look: style.Look = {"marker": marker, "color": color, "linewidth": 0.6, "zorder": 2 + every}
         axes.plot(mean.index, mean[costs[0]], linestyle=line, markerfacecolor=face, label=label, **look)
         if line != "none":
             axes.plot(mean.index, mean[costs[1]], linestyle=(0, (1, 1)), marker="", color=color)
@@ -116,10 +118,9 @@ def draw_bias(axes: Axes, table: pd.DataFrame, name: str, symbol: str) -> None:
         style.cross_out(
             axes, part.cpu_seconds.to_numpy(), part.deviation.abs().to_numpy(), ~part.usable.astype(bool)
         )
-    ends = [f"{value:g}" for value in (table[name].min(), table[name].max())]
-    axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$", ylim=(1e-3, 3))
-    if name == "relaxation_time":
-        style.label_within_decades(axes.xaxis)
+    ends = [format_number(value) for value in (table[name].min(), table[name].max())]
+    axes.set(xscale="log", yscale="log", ylabel=r"$|\Delta\kappa|/\kappa$")
+    style.label_within_decades(axes.xaxis)
     axes.set_xlabel(f"CPU time / s, {symbol} from {ends[0]} to {ends[1]}")
 
 
@@ -128,19 +129,20 @@ def draw_targets(axes: Axes, table: pd.DataFrame) -> None:
     part = table[table.series == "target"]
     axes.axhspan(-1, 1, **style.WINDOW)
     axes.axhline(0, **style.GUIDE)
-    for (target, runs), marker in zip(part.groupby("target_error"), "osD^", strict=False):
+    for (target, runs), (marker, _) in zip(part.groupby("target_error"), cycle(style.LOOKS), strict=False):
         look = style.points(marker, style.BLUE, "white", label=f"{100 * target:g} %")
         axes.errorbar(runs.cpu_seconds, runs.deviation / target, runs.error / target, **look)
     axes.set(xscale="log", xlabel="CPU time / s", ylabel="deviation / target error")
     style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left", title="target", ncols=3)
-    axes.set_ylim(-4, 5)
+    axes.margins(y=0.35)  # room for the legend
 
 
 def draw_kinetic(axes: Axes, table: pd.DataFrame) -> None:
     kinetic = table[table.series == "kinetic"].drop_duplicates(["gamma", "error"]).sort_values("cpu_seconds")
-    for (gamma, part), (marker, color, dashes) in zip(kinetic.groupby("gamma"), GAMMAS, strict=False):
-        label = rf"$\gamma = {float(gamma):g}$"
+    looks = zip(cycle(style.LOOKS), cycle(style.DASHES), strict=False)
+    for (gamma, part), ((marker, color), dashes) in zip(kinetic.groupby("gamma"), looks, strict=False):
+        label = rf"$\gamma = {format_number(float(gamma))}$"
         axes.plot(part.cpu_seconds, part.error, marker=marker, color=color, linestyle=dashes, label=label)
     axes.set(xscale="log", yscale="log", xlabel="CPU time / s", ylabel="error of F and currents")
     axes.legend(loc="lower left")
@@ -164,8 +166,8 @@ def cost_at(table: pd.DataFrame, gamma: str, largest: bool) -> str:
 
 def caption(table: pd.DataFrame) -> str:
     return f"""
-        (a) 1 % of κ costs {cost_at(table, "N", False)}, {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Points: deviation of κ
-        from a long run; dotted: its error; crossed out: not stationary. A longer relaxation lowers the deviation, a longer window both. (d) Deviation over target:
+        (a) 1 % of κ costs {cost_at(table, "N", False)}, {cost_at(table, "N", True)} (γ = N; dotted: without control variates). (b), (c) Deviation of κ from a long run
+        (dotted: its error; crosses: not stationary): a longer relaxation lowers it, a longer window both. (d) Deviation over target:
         {rms_over_target(table)} at most (root mean square). (e) Kinetic equation. {ERRORS}"""
 
 
@@ -177,7 +179,7 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_costs(axes["a"], sampled)
     draw_bias(axes["b"], table[table.series == "relaxation"], "relaxation_time", "relaxation time")
     draw_bias(axes["c"], table[table.series == "window"], "observation_time", "window")
-    axes["b"].legend(loc="upper right", title="start")
+    axes["b"].legend(loc="best", title="start")
     draw_targets(axes["d"], table)
     draw_kinetic(axes["e"], table)
     style.letter(*axes.values())

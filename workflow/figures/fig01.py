@@ -16,10 +16,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, parameters
+from workflow.lib.caption import BATHS, ERRORS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
+from workflow.physics.paper import PAPER
 
 TITLE = "Momentum distribution of the particles in a filling chain"
 UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
@@ -74,10 +75,12 @@ def number_bins(axes: Axes, result: Result) -> None:
 def caption(results: Sequence[Result]) -> str:
     chain, coincide = results[0], [*map(stationary, results)]
     fewer = " Coinciding curves are left out." if any(coincide) else ""
+    columns = " Columns differ in λ, which the paper omits." if len(results) > 1 else ""
     first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
-        The paper finds |p| n_t(p) stationary above a front p_0(t) ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). At λ =
-        {run_parameters.spacing(chain)[1]} its height in (c) goes from {first} to {last}, and p_0 ∼ t^a with a = {style.format_quantity(chain["front_exponent"])}. Columns differ in spacing (unstated there). (e), (f) Dashed: stationary flux, λ/(e t).{fewer} {ERRORS}"""
+        The paper finds |p| n_t(p) stationary above a front p_0(t). Here ({parameters(results, "cells", "sigma", *BATHS, paper=PAPER["fig01"])}) its
+        height at λ = {run_parameters.spacing(chain)[1]} (c) goes from {first} to {last}, and p_0 ∼ t^a with a =
+        {style.format_quantity(chain["front_exponent"])}.{columns} (e), (f) Dashed: stationary flux.{fewer} {ERRORS}"""
 
 
 @plots("unit-spacing unit-chain")
@@ -101,7 +104,8 @@ def draw(results: Sequence[Result]) -> Parts:
         below.axhline(1, **style.GUIDE)
         name = rf"$\lambda = {run_parameters.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
-        above.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
+        above.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel=r"$|p|\,n_t(p)$")
+        above.margins(x=0)
         number_bins(above, result)
         middle.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
         top = 1.3 * max(1, np.nanmax(ratio))

@@ -13,11 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, parameters
+from workflow.lib.caption import BATHS, ERRORS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import local_slopes
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
+from workflow.physics.paper import PAPER
 
 TITLE = "Number of particles in a filling chain"
 UNITS = {"slope": "1", "slope_time": "time", "number": "1", "number_fitted": "1"}
@@ -79,10 +80,11 @@ def caption(results: Sequence[Result]) -> str:
     chain = results[0]
     shape = "straight" if straight(chain) else "curved"
     slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
-    fit = f"The line has the slope {slope}" if straight(chain) else "No line is fitted"
+    fit = f"the line in (a) has the slope {slope}" if straight(chain) else "no line is fitted"
+    other = " (b) Another spacing." if len(results) > 1 else ""
     return f"""
-        The paper finds that n(t) grows as ln t ({parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}). Here, at λ = {run_parameters.spacing(chain)[1]}, it
-        is {shape} in ln t. (a) {fit}. (b) Another spacing. (c), (d) In
+        The paper finds that n(t) grows as ln t. Here ({parameters(results, "cells", "sigma", *BATHS, paper=PAPER["fig01"])}), at λ =
+        {run_parameters.spacing(chain)[1]}, it is {shape} in ln t: {fit}.{other} (c), (d) In
         filled chains the slope equals the height of |p| n_t(|p|), {height} in (c). {ERRORS}"""
 
 

@@ -7,10 +7,11 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, parameters
+from workflow.lib.caption import BATHS, ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
+from workflow.physics.paper import PAPER
 
 TITLE = "Density profiles"
 UNITS = dict.fromkeys(("x", "bulk", "relative"), "1")
@@ -31,21 +32,22 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(results: Sequence[Result]) -> str:
     excess = listed(
-        f"{listed(style.format_quantity(result['density_excess'], end, 100) for end in (0, 1))} % at γ = {run_parameters.gamma(result)}"
+        f"{style.format_quantity(result['density_excess'], int(result['density_excess'].mean.argmax()), 100)} % at γ = {run_parameters.gamma(result)}"
         for result in results
     )
     return f"""
-        The paper finds that particles accumulate at the ends, more at γ = 1 ({parameters(results, "cells", "cell_length")}, {baths(results[0])}). Here first
-        and last cell exceed a line through the shaded half by {excess}. (a) Slow particles accumulate with time. (b)
-        Density divided by the lines. {ERRORS}"""
+        The paper finds that particles accumulate at the ends, more at γ = 1. Here ({parameters(results, "cells", "cell_length", *BATHS, paper=PAPER["fig02"])})
+        an end cell exceeds a line through the shaded half by at most {excess}. (a) Slow particles accumulate with time.
+        (b) Density over the lines. {ERRORS}"""
 
 
 @plots("deterministic rare")
 def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(1.7, 1, height=1.5)
     tables = [tabulate(result) for result in results]
+    looks = style.by_gamma(map(run_parameters.gamma, results))
     for result, table in zip(results, tables, strict=True):
-        look = style.points(*style.BY_GAMMA[result.parameters["gamma"]], "white")
+        look = style.points(*looks[run_parameters.gamma(result)], "white")
         label = rf"$\gamma = {run_parameters.gamma(result)}$"
         above.errorbar(table.x, table.density, table.density_error, **look, label=label)
         above.plot(table.x, table.bulk, color=look["color"], linewidth=0.6, zorder=1)

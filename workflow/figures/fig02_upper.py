@@ -5,15 +5,15 @@ Below, the temperature of the particles minus that of the scatterers, measured i
 
 from collections.abc import Sequence
 
-import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, format_number, listed, parameters
+from workflow.lib.caption import BATHS, ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
+from workflow.physics.paper import PAPER
 
 TITLE = "Temperature profiles"
 UNITS = {"x": "1"} | dict.fromkeys(("scatterer", "particle", "particle_minus_scatterer"), "temperature")
@@ -44,8 +44,8 @@ def caption(results: Sequence[Result]) -> str:
         format_with_error(abs(far.particle_minus_scatterer), far.particle_minus_scatterer_error),
     )
     return f"""
-        The paper finds that the temperatures of scatterers and particles coincide and do not reach the baths ({parameters(results, "cells", "cell_length", "sigma")},
-        {baths(results[0])}). Here the first scatterer has {first}, next to T_L = {format_number(results[0].ends("temperature")[0])}.
+        The paper finds one temperature of scatterers and particles, which does not reach the baths. Here
+        ({parameters(results, "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig02"])}) the first scatterer has {first}.
         (a) E_K is T/2. (b) Particles and scatterers differ most at γ = {gamma}, by {farthest}. {ERRORS}"""
 
 
@@ -53,8 +53,9 @@ def caption(results: Sequence[Result]) -> str:
 def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(2, 1, height=1.6, width=1.1)
     tables = [tabulate(result) for result in results]
+    looks = style.by_gamma(map(run_parameters.gamma, results))
     for result, table in zip(results, tables, strict=True):
-        marker, color = style.BY_GAMMA[result.parameters["gamma"]]
+        marker, color = looks[run_parameters.gamma(result)]
         look = style.points(marker, color, "white")
         name = rf"$\gamma = {run_parameters.gamma(result)}$"
         dashes = "solid" if run_parameters.gamma(result) == "N" else "dashed"
@@ -67,17 +68,9 @@ def draw(results: Sequence[Result]) -> Parts:
     for temperature, (name, x, lift) in zip(temperatures, marks, strict=True):
         above.axhline(temperature, **style.GUIDE)
         side = "bottom" if lift > 0 else "top"
-        above.annotate(
-            name,
-            (x, temperature),
-            (0, lift),
-            textcoords="offset points",
-            ha="center",
-            va=side,
-            size=style.label_size(),
-        )
-    middle = np.mean(temperatures)
-    above.set(ylabel=f"temperature ({style.UNIT_SYSTEM})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))
+        style.name_point(above, name, (x, temperature), (0, lift), ha="center", va=side)
+    above.margins(y=0.1)  # room for the names of the guides
+    above.set(ylabel=f"temperature ({style.UNIT_SYSTEM})", xlim=(0, 1))
     style.second_axis(above, 0.5, "kinetic energy $E_K$")
     below.axhline(0, **style.GUIDE)
     below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")

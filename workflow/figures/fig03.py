@@ -11,23 +11,24 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import baths, format_number, listed, parameters
+from workflow.lib.caption import BATHS, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
-from workflow.physics.fluxes import SHOWN_MOMENTA
+from workflow.physics.fluxes import reach
+from workflow.physics.paper import PAPER
 
 TITLE = "Momentum distribution of the particles at both ends, by the kinetic equation"
 UNITS = {"gaussian": "1/(time momentum)"}
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
-PAPER, EQUAL = "as in the paper", "equal temperatures"
+PAPERS, EQUAL = "as in the paper", "equal temperatures"
 OFTEN = 0.01  # fraction of the largest flux above which the ratio to a Gaussian is shown
 
 
 def case(result: Result) -> str:
     left, right = result.ends("temperature")
-    return EQUAL if left == right else PAPER
+    return EQUAL if left == right else PAPERS
 
 
 def gaussian_half(momentum: np.ndarray, flux: np.ndarray) -> np.ndarray:
@@ -62,32 +63,35 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
 
 
 def caption(results: Sequence[Result], outgoing: float) -> str:
-    paper = next(result for result in results if case(result) == PAPER)
-    jumps = listed(f"{format_number(paper['jump'].mean[index])} at {end}" for index, end, *_ in ENDS)
+    paper = next((result for result in results if case(result) == PAPERS), results[0])
+    jumps = listed(f"{paper['jump'].mean[index]:.4g} at {end}" for index, end, *_ in ENDS).replace("-", "−")
+    dotted = " (dotted: equal temperatures)" if EQUAL in map(case, results) else ""
     return f"""
-        The paper plots the flux F(p, x) and finds a jump at p = 0 ({parameters([paper], "sigma", "gamma")}, {baths(paper)}). (a) Here it is {jumps}.
-        (b) Halves over the Gaussian of their rate and second moment: outgoing ones deviate by up to {outgoing:.2g} % where F exceeds
-        {100 * OFTEN:g} % of its maximum (dotted: equal temperatures)."""
+        The paper finds a jump of the flux F(p, x) at p = 0. (a) Here ({parameters([paper], "sigma", "gamma", *BATHS, paper=PAPER["fig03"])}) it is {jumps}.
+        (b) Outgoing halves deviate from the Gaussian of their rate and second moment by up to {outgoing:.2g} % where F exceeds
+        {100 * OFTEN:g} % of its maximum{dotted}."""
 
 
 @plots("paper equal")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
+    shown = reach(results[0]["flux_density"])
     figure, (above, below) = style.stacked(2, 1, height=1.5, width=1.1)
     departure = (100 * (table.flux / table.gaussian - 1)).where(table.flux > OFTEN * table.flux.max())
     for _, end, color, dashes in ENDS:
-        ends = table[table.x == end]
-        paper, equal = (ends[ends.case == name] for name in (PAPER, EQUAL))
+        ends = table[(table.x == end) & (table.momentum.abs() < shown)]
+        paper, equal = (ends[ends.case == name] for name in (PAPERS, EQUAL))
         draw_halves(above, paper, paper.flux, color=color, linestyle=dashes, label=f"${end}$")
         draw_halves(below, paper, departure[paper.index], color=color, linestyle=dashes)
         draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
-    above.set(ylabel="$F(p, x)$", xlim=(-SHOWN_MOMENTA, SHOWN_MOMENTA), ylim=(0, None))
+    above.set(ylabel="$F(p, x)$", xlim=(-shown, shown), ylim=(0, None))
     style.second_axis(above, 1 / run_parameters.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
-    below.plot([], [], color="grey", linestyle="dotted", label=r"$T_L = T_R$, $\nu_L > \nu_R$")
+    if EQUAL in map(case, results):
+        below.plot([], [], color="grey", linestyle="dotted", label="$T_L = T_R$")
+        below.legend(loc="best")
     below.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")
-    below.legend(loc="best")
-    outgoing = float(departure[table.case == PAPER].abs().max())
+    outgoing = float(departure[table.case == PAPERS].abs().max())
     return figure, table, caption(results, outgoing)

@@ -5,6 +5,7 @@ Lines: the mean field, the kinetic equation of N scatterers.
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,15 +17,14 @@ from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics.fluxes import MEAN_FIELD, SHOWN_MOMENTA, SIMULATION, at_zero, deviations
+from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, at_zero, deviations, reach
+from workflow.physics.paper import PAPER
 
 TITLE = "Deviation of finite chains from the kinetic equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
 UNITS |= {"absolute_as_printed": "1/momentum"}
 
-LOWEST, HIGHEST = 7e-5, 0.08  # range of the deviations that are plotted
 LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
-MARKERS = ["o", "s", "^", "D"]  # one for each N
 
 
 def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
@@ -57,17 +57,17 @@ def at_centre(table: pd.DataFrame) -> pd.Series:
     return pd.Series(centres, name="centre").rename_axis("cells")
 
 
-def draw_end(axes: Axes, table: pd.DataFrame, sign: int, title: str) -> None:
+def draw_end(axes: Axes, table: pd.DataFrame, sign: int, shown: float, title: str) -> None:
     """Plots the particles that leave at one end: points from simulations, lines from the mean field."""
-    half = table[np.sign(table.momentum) == sign]
-    looks = zip(style.SEQUENCE, style.DASHES, MARKERS, strict=False)
-    for (size, rows), (color, dashes, marker) in zip(half.groupby("cells"), looks, strict=False):
+    half = table[(np.sign(table.momentum) == sign) & (table.momentum.abs() < shown)]
+    looks = zip(cycle(style.SEQUENCE), cycle(style.DASHES), cycle(style.LOOKS), strict=False)
+    for (size, rows), (color, dashes, (marker, _)) in zip(half.groupby("cells"), looks, strict=False):
         points, line = (rows[rows.kind == kind] for kind in (SIMULATION, MEAN_FIELD))
         look = style.points(marker, color, markersize=2.5, capsize=0, label=f"$N = {size}$")
         axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look)
         axes.plot(line.momentum, 1e3 * line.deviation, color=color, linestyle=dashes, linewidth=0.8)
     axes.axhline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", title=title, xlim=sorted((0, sign * SHOWN_MOMENTA)))
+    axes.set(xlabel="momentum $p$", title=title, xlim=sorted((0, sign * shown)))
 
 
 def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
@@ -79,7 +79,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot(line.cells, line.amplitude, color=style.BLACK, label=MEAN_FIELD)
     centre = at_centre(table)
     axes.plot(centre.index, centre, color=style.BLACK, linestyle="dotted", label=f"{MEAN_FIELD}, $p = 0$")
-    axes.set(xscale="log", yscale="log", ylim=(LOWEST, HIGHEST), xlim=(1.8, 1.1 * line.cells.max()))
+    axes.set(xscale="log", yscale="log")
+    axes.margins(y=0.25)  # room for the legend
     readings: list[tuple[float, str, style.Look]] = [
         (1, r"of $\max F$", {}),
         (1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}),
@@ -87,7 +88,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     for height, name in LIMITS:
         for scale, reading, look in readings:
             axes.axhline(height * scale, **style.GUIDE | look)
-            axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=style.label_size(), **look)
+            place: style.Look = {"transform": axes.get_yaxis_transform(), "va": "bottom"}
+            axes.text(0.03, height * scale, f"{name} {reading}", size=style.label_size(), **place, **look)
     axes.set(xlabel="number of cells $N$", ylabel=r"$|F_N - F|\,/\,\max F$")
     style.second_axis(axes, printed, r"$|F_N - F|$ at $\int F\,dp = 1$")
     style.label_within_decades(axes.xaxis)
@@ -108,8 +110,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         f"{last} % at N = {long}",
     )
     return f"""
-        The paper plots F_N − F, chain minus kinetic equation, and finds it below {LIMITS[0][1]}, and below {LIMITS[1][1]} in the longest chain
-        ({parameters(runs, "sigma", "gamma")}). Here its maximum (c) is {listed(largest)}. (a), (b) Lines show the mean field. {ERRORS}"""
+        The paper finds F_N − F, chain minus kinetic equation, below {LIMITS[0][1]}, and below {LIMITS[1][1]} in the longest chain.
+        Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum (c) is {listed(largest)}. (a), (b) Lines show the mean field. {ERRORS}"""
 
 
 @plots("simulation continuum mean-field")
@@ -118,8 +120,9 @@ def draw(results: Sequence[Result]) -> Parts:
     table = deviations(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["left", "right"], ["decay", "decay"]], figsize=size)
-    draw_end(panels["left"], table, -1, "left end, $x = 0$")
-    draw_end(panels["right"], table, 1, "right end, $x = 1$")
+    shown = reach(next(result["flux"] for result in results if result.parameters["cells"] == "continuum"))
+    draw_end(panels["left"], table, -1, shown, "left end, $x = 0$")
+    draw_end(panels["right"], table, 1, shown, "right end, $x = 1$")
     panels["left"].set_ylabel(r"$10^3\,(F_N - F)\,/\,\max F$")
     panels["left"].legend(loc="upper left", handletextpad=0.2)
     draw_decay(panels["decay"], table)

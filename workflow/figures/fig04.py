@@ -14,12 +14,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, parameters
+from workflow.lib.caption import BATHS, ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
-from workflow.physics.fluxes import SHOWN_MOMENTA, at
+from workflow.physics.fluxes import at, reach
+from workflow.physics.paper import PAPER
 
 UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
 
@@ -27,7 +28,7 @@ UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
 EQUAL = "\n$\\nu_L = \\nu_R$"
 FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
-NEAR = 12  # largest |p| in the panel of the jump
+NEAR = 4  # ratio of the largest |p| to that in the panel of the jump
 
 
 def measured(results: Sequence[Result]) -> list[Result]:
@@ -85,10 +86,10 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
     axes.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F_N(p, x)$", xlim=(-reach, reach))
 
 
-def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
+def draw_residuals(axes: Axes, table: pd.DataFrame, shown: float) -> None:
     for end, part in table.groupby("x", sort=False):
         _, color, dashes, marker = ENDS[end]
-        for half in halves(part[part.momentum.abs() < SHOWN_MOMENTA]):
+        for half in halves(part[part.momentum.abs() < shown]):
             unit = table.kinetic.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
             look |= {"elinewidth": 0.6, "linewidth": 0.6}
@@ -96,11 +97,7 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
             axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
     axes.axhline(0, color=style.BLACK, linewidth=0.6)
     axes.axvline(0, **style.GUIDE)
-    axes.set(
-        xlabel="momentum $p$",
-        ylabel=r"$F_N - F$ / % of max $F$",
-        xlim=(-SHOWN_MOMENTA, SHOWN_MOMENTA),
-    )
+    axes.set(xlabel="momentum $p$", ylabel=r"$F_N - F$ / % of max $F$", xlim=(-shown, shown))
 
 
 def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
@@ -119,16 +116,9 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
             look = {"marker": marker, "color": color, **style.POINTS}
             axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
             axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
-            text, position = format_with_error(end.jump, end.jump_error), (0.98, -row + shift)
-            axes.annotate(
-                text,
-                position,
-                xycoords=axes.get_yaxis_transform(),
-                ha="right",
-                va="center",
-                size=style.label_size(),
-                color=color,
-            )
+            text: style.Look = {"ha": "right", "va": "center", "size": style.label_size(), "color": color}
+            text |= {"transform": axes.get_yaxis_transform()}
+            axes.text(0.98, -row + shift, format_with_error(end.jump, end.jump_error), **text)
     jumps = table.jump.abs()
     if (
         jumps.min() < FEW * jumps.max()
@@ -153,15 +143,15 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
     if chain.parameters["gamma"] == "N":
-        claim, neglected = "small jumps at p = 0", ", which neglects correlations,"
+        claim = "has small jumps at p = 0"
     else:
-        claim, neglected = "that of the kinetic equation, which jumps at p = 0", ""
+        claim = "follows the kinetic equation, with a jump at p = 0"
     still = main[main.nu_left == main.nu_right]
     equal = f", and {jumps_of(still)} at equal rates" if len(still) else ""
     return f"""
-        The paper plots the flux F_N(p, x) behind both end scatterers and finds {claim} ({parameters([chain], "cells", "cell_length", "sigma")}, {baths(chain)}).
-        (a) to (c) F_N differs from the kinetic equation (black){neglected} by at most {math.ceil(10 * far) / 10:g} % of max F. (d) The jumps are
-        {jumps_of(unequal)}{equal}. {ERRORS}"""
+        The paper finds that the flux F_N(p, x) behind both end scatterers {claim}. Here ({parameters([chain], "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig04"])})
+        it differs from the kinetic equation (black) by at most {math.ceil(10 * far) / 10:g} % of max F.
+        (d) The jumps are {jumps_of(unequal)}{equal}. {ERRORS}"""
 
 
 @plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")
@@ -174,10 +164,11 @@ def draw(results: Sequence[Result]) -> Parts:
         figsize=(2 * style.COLUMN, 1.6 * style.HEIGHT),
         height_ratios=[1.7, 1],
     )
-    draw_distribution(panels["main"], unequal, SHOWN_MOMENTA)
-    draw_distribution(panels["near"], unequal, NEAR)
+    shown = max(reach(result["flux"]) for result in measured(results))
+    draw_distribution(panels["main"], unequal, shown)
+    draw_distribution(panels["near"], unequal, shown / NEAR)
     style.second_axis(panels["main"], 1 / run_parameters.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
-    draw_residuals(panels["residual"], unequal)
+    draw_residuals(panels["residual"], unequal, shown)
     draw_jumps(panels["jump"], main)
     corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
     panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **corner)

@@ -7,11 +7,12 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, parameters
+from workflow.lib.caption import ERRORS, format_number, listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 from workflow.physics.closed import persistence_at_momentum, persistence_law
+from workflow.physics.paper import PAPER
 from workflow.physics.run_parameters import mass
 
 TITLE = "Persistence probability against the mass ratio"
@@ -19,10 +20,11 @@ UNITS = dict.fromkeys(("law", "deviation", "at_momentum"), "1")
 
 DASHED = style.DASHES[3]
 LOOKS = {
-    "paper": style.points("o", style.BLUE, label=r"$n = 20$, random $\Pi$"),
-    "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = 20$, $\Pi = 0$"),
-    "dense": style.points("^", style.GREEN, label="$n = 320$"),
+    "paper": style.points("o", style.BLUE, label=r"$n = {}$, random $\Pi$"),
+    "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = {}$, $\Pi = 0$"),
+    "dense": style.points("^", style.GREEN, label="$n = {}$"),
 }
+STEEP = 0.9  # largest |σ| of the deviations in the caption: beyond it scatterers may still be cold
 
 
 def at_momentum(result: Result) -> float:
@@ -64,14 +66,18 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    most = {}
-    for name, part in table[table.sigma.abs() <= 0.9].groupby("series"):
+    dense = [result for result in results if result.series == "dense"]
+    main = [result for result in results if result not in dense] or results
+    names = {"paper": "", "zero-momentum": "with total momentum Π = 0 "}
+    names["dense"] = f"with {parameters(dense, 'particles_per_cell')} "
+    most = []
+    for name, part in table[table.sigma.abs() <= STEEP].groupby("series", sort=False):
         far = part.loc[part.deviation.abs().idxmax()]
-        most[name] = format_with_error(far.deviation, far.mu_error)
+        most.append(f"{names.get(name, f'in {name} ')}by {format_with_error(far.deviation, far.mu_error)}")
     return f"""
-        The paper plots the probability μ that a particle keeps its direction and finds arccos(σ)/π ({parameters(results, "cells", "gamma", "temperature")}).
-        (b) Here μ differs by {most.get("paper", "(unknown)")} at most for |σ| ≤ 0.9; with total momentum Π = 0 by {most.get("zero-momentum", "(unknown)")}; with n = 320 by {most.get("dense", "(unknown)")}. Dashes: the law at the conserved Π; at σ = 0.99
-        scatterers are still cold. {ERRORS}"""
+        The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π. (b) Here ({parameters(main, "cells", "particles_per_cell", "temperature", paper=PAPER["fig05"])})
+        μ differs, at most for |σ| ≤ {format_number(STEEP)}, {listed(sorted(most))}.
+        Dashes: the law at the conserved Π. {ERRORS}"""
 
 
 @plots("paper zero-momentum dense")
@@ -82,9 +88,11 @@ def draw(results: Sequence[Result]) -> Parts:
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, persistence_law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
-    for name in dict.fromkeys([*LOOKS, *table.series]):
+    for name in dict.fromkeys([*(name for name in LOOKS if name in {*table.series}), *table.series]):
         look = LOOKS.get(name, style.points("P", style.BLACK, "white", label=name))
         part = table[table.series == name]
+        numbers = listed(map(str, sorted(part.particles_per_cell.unique())))
+        look = look | {"label": look["label"].format(numbers)}
         above.errorbar(part.sigma, part.mu, part.mu_error, **look)
         below.errorbar(part.sigma, 1e3 * part.deviation, 1e3 * part.mu_error, **look)
         inside = part[part.sigma.abs() < 1]
@@ -93,6 +101,6 @@ def draw(results: Sequence[Result]) -> Parts:
     style.cross_out(above, table.sigma, table.mu, table.converged == NOT_REACHED)
     above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
-    above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
+    above.legend(loc="upper right", title=f"${parameters(results, 'cells')}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
     return figure, table, caption(table, results)

@@ -17,6 +17,7 @@ from workflow.lib.caption import ERRORS, format_number, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
+from workflow.physics.paper import PAPER
 
 TITLE = "Waiting-time density for σ = 0 and 1/2"
 UNITS = dict.fromkeys(("fitted", "gaussian_start"), "1/time")
@@ -77,7 +78,7 @@ def draw_density(axes: Axes, table: pd.DataFrame, mark: Mark, power: float = 0, 
 
 
 def mark_outside(axes: Axes, table: pd.DataFrame, color: str, power: float, top: float) -> None:
-    """Marks bins above the frame by triangles at its upper edge."""
+    """Marks bins above the frame, which render counts, by triangles at its upper edge."""
     outside = table.tau[table.tau**power * table.density > top]
     # Without clipping a line that has no points would count for the layout, at the corner of the figure.
     if outside.empty:
@@ -100,19 +101,18 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     error = np.hypot.reduce(tail.tau * tail.density_error) / weight.sum()
     expected = 50 * np.pi / int(result.parameters["particles_per_cell"])
     excess = format_with_error(100 * (mean - 1), 100 * error)
-    return f" At σ = 0 its tail is {excess} % above n → ∞; held momenta explain {expected:.2g} %."
+    return f" At σ = 0 the tail is {excess} % above n → ∞; expected: {expected:.2g} %."
 
 
 def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFrame]) -> str:
-    sigmas = [float(result.parameters["sigma"]) for result in results]
-    powers = listed(f"−{POWERS[sigma]} at σ = {format_number(sigma)}" for sigma in sigmas if sigma in POWERS)
+    powers = listed(f"−{power} at σ = {format_number(sigma)}" for sigma, power in POWERS.items())
     exponents = listed(style.format_quantity(result["exponent"]) for result in results)
     pairs = zip(results, tables, strict=True)
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
-    younger = format_number(results[0].parameters["relaxation_time"] / young.parameters["relaxation_time"])
+    younger = f"{results[0].parameters['relaxation_time'] / young.parameters['relaxation_time']:.3g}"
     return f"""
-        The paper gives the density Ψ(τ) of waiting times exponents {powers} ({parameters(results, "gamma", "particles_per_cell")}). Here
-        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %; triangles: outside. {ERRORS}"""
+        The paper gives the density Ψ(τ) of waiting times the exponents {powers}. Here ({parameters(results, "gamma", "particles_per_cell", paper=PAPER["fig06"])})
+        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
 
 
 @plots("all young")
@@ -127,7 +127,7 @@ def draw(results: Sequence[Result]) -> Parts:
         sigma = float(result.parameters["sigma"])
         power = POWERS.get(sigma, 2)
         exponent = style.format_quantity(result["exponent"])
-        draw_density(above, table, mark, label=rf"$\sigma = {sigma:g}$: $\tau^{{{exponent}}}$")
+        draw_density(above, table, mark, label=rf"$\sigma = {format_number(sigma)}$: $\tau^{{{exponent}}}$")
         draw_density(strip, table, mark, power)
         if sigma == 0:
             seen = table[table.gaussian_start > table.density.min()]
@@ -136,7 +136,7 @@ def draw(results: Sequence[Result]) -> Parts:
             strip.plot(table.tau, table.tau**3 * table.gaussian_start, **exact)
         typical = (table.tau**power * table.fitted).median()
         mark_outside(strip, table, mark[1], power, 2 * typical)
-        strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{power}\,\Psi$, $\sigma = {sigma:g}$")
+        strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{power}\,\Psi$, $\sigma = {format_number(sigma)}$")
     above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
     ends = [table.tau[~table.unsure].max() for table in tables]
     for axes, end in zip((above, *strips), (np.fmax.reduce(ends), *ends), strict=True):

@@ -14,6 +14,7 @@ from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
+from workflow.physics.paper import PAPER
 
 TITLE = "Mean square displacement of a tagged particle"
 UNITS = {"fraction": "1", "slope_to_next": "1"}
@@ -28,16 +29,12 @@ def zero(result: Result) -> bool:
     return bool(result.parameters["zero_total_momentum"])
 
 
-def cells(result: Result) -> int:
-    return int(result.parameters["cells"])
-
-
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the fraction neglects the correlation of drift and variance: it is an
     upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass_variance"], result["local_slope"]
     columns = result.columns("variance", "centre_of_mass_variance")
-    run = {"cells": cells(result), "zero_total_momentum": zero(result)}
+    run = {"cells": int(result.parameters["cells"]), "zero_total_momentum": zero(result)}
     table = pd.DataFrame({"time": variance.axes["time"], **run, **columns})
     table["fraction"] = drift.mean / variance.mean
     relative = np.hypot(drift.error / drift.mean, variance.error / variance.mean)
@@ -52,8 +49,8 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
     last, paper = random.iloc[-1], results[0]
     without = next(style.format_quantity(result["alpha"]) for result in results if zero(result))
     return f"""
-        The paper plots ⟨x²⟩ ∼ t^α and finds α slightly below 2 ({parameters([paper], "sigma", "gamma", "particles_per_cell", "temperature")}). Here α, fitted in the shaded window,
-        is {style.format_quantity(paper["alpha"])} at N = {cells(paper)} and {without} with zero total momentum. (a) Lines show the drift of the centre of mass, in the end
+        The paper finds ⟨x²⟩ ∼ t^α with α slightly below 2. Here ({parameters([paper], "cells", "sigma", "particles_per_cell", "temperature", paper=PAPER["fig07"])}) α, fitted
+        in the shaded window, is {style.format_quantity(paper["alpha"])}, and {without} with zero total momentum. (a) Lines show the drift of the centre of mass, in the end
         {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. (b) Exponents are local. {ERRORS}"""
 
 
@@ -74,36 +71,22 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
             label = "centre of mass, random"
-            above.plot(table.time, table.centre_of_mass_variance, color=look["color"], zorder=0, label=label)
-            style.band(
-                above,
-                table.time,
-                table.centre_of_mass_variance,
-                table.centre_of_mass_variance_error,
-                look["color"],
-            )
+            drift, error = table.centre_of_mass_variance, table.centre_of_mass_variance_error
+            above.plot(table.time, drift, color=look["color"], zorder=1, label=label)
+            style.band(above, table.time, drift, error, look["color"])
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
         guide = factor * table.variance.iloc[-1] * (late / last) ** power
         above.plot(late, guide, **style.GUIDE)
         name, lift = ("$t^2$", (-18, -2)) if power == 2 else ("$t$", (-8, -14))
-        above.annotate(
-            name,
-            (last, guide.iloc[-1]),
-            lift,
-            textcoords="offset points",
-            size=style.label_size(),
-            ha="right",
-        )
+        style.name_point(above, name, (last, guide.iloc[-1]), lift, ha="right")
     for value in (1, 2):
         below.axhline(value, **style.GUIDE)
     for axes in (above, below):
         axes.axvspan(*window, **style.WINDOW)
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
-    below.set(
-        xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2)
-    )
-    title = rf"$N = {cells(results[0])}$, $\sigma = {results[0].parameters['sigma']:g}$"
+    below.set(xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$")
+    title = f"${parameters(results, 'cells')}$, ${parameters(results, 'sigma')}$"
     figure.legend(
         *above.get_legend_handles_labels(), loc="outside upper left", ncols=2, title=title, alignment="left"
     )

@@ -13,15 +13,16 @@ from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
+from workflow.physics.paper import PAPER
 
 TITLE = "Exponent of the mean square displacement against the mass ratio"
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
-PAPER, ZERO = "random total momentum", "zero total momentum"
+PAPERS, ZERO = "random total momentum", "zero total momentum"
 RANDOM = RULE_PHRASES["random-direction"]
 LOOKS = {
-    PAPER: style.points("o", style.BLUE, label=PAPER),
+    PAPERS: style.points("o", style.BLUE, label=PAPERS),
     ZERO: style.points("s", style.VERMILLION, "white", label=ZERO),
     RANDOM: style.points("D", style.GREEN, label=RANDOM),
 }
@@ -30,7 +31,7 @@ LOOKS = {
 def kind(result: Result) -> str:
     if rule(result) != "elastic":
         return rule(result)
-    return ZERO if result.parameters["zero_total_momentum"] else PAPER
+    return ZERO if result.parameters["zero_total_momentum"] else PAPERS
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -53,7 +54,7 @@ def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
     look = LOOKS.get(name, style.points("P", style.BLACK, "white", label=name))
     several = part.relaxation_time.nunique() > 1
     for time, points in part.groupby("relaxation_time"):
-        own = {"label": f"{name}, $t_r = {time:g}$"} if several else {}
+        own = {"label": f"{name}, $t_r = {format_number(time)}$"} if several else {}
         if several and time < part.relaxation_time.max():
             own["markerfacecolor"] = "white"
         axes.errorbar(points.sigma, points.alpha, points.alpha_error, **look | own)
@@ -73,10 +74,10 @@ def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
     exchange = "The exponents without drift are enlarged."
     if len(exchanged):
         alpha = format_with_error(*exchanged[["alpha", "alpha_error"]].iloc[-1])
-        exchange = f"At σ = 0 momenta are only exchanged, waits follow τ⁻³, and without drift α is {alpha}."
+        exchange = f"At σ = 0 momenta are only exchanged; without drift α is {alpha}."
     return f"""
-        The paper plots α of ⟨x²⟩ ∼ t^α and finds 1 < α < 2 for σ ≠ 0 ({parameters(results, "gamma", "particles_per_cell")}). (a) Here it is at least
-        {extreme(kinds[PAPER], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""
+        The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) Here ({parameters(results, "cells", "particles_per_cell", "temperature", paper=PAPER["fig07_inset"])}) it is at least
+        {extreme(kinds[PAPERS], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""
 
 
 @plots("all zero-momentum aged random")
@@ -85,12 +86,12 @@ def draw(results: Sequence[Result]) -> Parts:
     shown = tabulate([result for result in results if result.series != "aged"])
     figure, (above, below) = style.stacked(2, 1, height=1.6)
     for name in dict.fromkeys([*LOOKS, *shown.kind]):
-        for axes in (above, below) if name != PAPER else (above,):
+        for axes in (above, below) if name != PAPERS else (above,):
             draw_curve(axes, shown[shown.kind == name], name)
     style.cross_out(above, shown.sigma, shown.alpha, shown.converged == NOT_REACHED)
     for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)
-    above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.2))
+    above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1))
     below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"$\alpha$ without drift")
     below.set_xticks(TICKS, [format_number(sigma) for sigma in TICKS])
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")

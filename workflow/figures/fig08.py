@@ -13,11 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, parameters
+from workflow.lib.caption import BATHS, ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error, local_exponents
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
+from workflow.physics.paper import PAPER
 
 TITLE = "Heat conductivity against the size of the chain"
 UNITS = dict.fromkeys(("exponent_to_next", "mean_field_exponent_to_next"), "1")
@@ -25,7 +26,6 @@ UNITS |= {"mean_field_kappa": "energy/(time temperature)"}
 
 BELOW = 0.7  # ratio of a guide to the lowest point
 GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's exponents by gamma
-LOOKS = {str(gamma): look for gamma, look in style.BY_GAMMA.items()}
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
@@ -34,7 +34,8 @@ def mean_field(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row = {"gamma": run_parameters.gamma(result), "cells": int(result.parameters["cells"])}
         rows.append(row | {"mean_field_kappa": float(result["kappa"].mean)})
-    table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+    columns = ["gamma", "cells", "mean_field_kappa"]
+    table = pd.DataFrame(rows, columns=columns).sort_values("cells", ignore_index=True)
     middle, slope, _ = local_exponents(table.cells, table.mean_field_kappa, 0 * table.cells)
     return table.assign(middle=middle, mean_field_exponent_to_next=slope)
 
@@ -60,8 +61,7 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     power = part.cells**slope
     guide = BELOW * (part.kappa / power).min() * power
     axes.plot(part.cells, guide, **style.GUIDE)
-    end = (part.cells.iloc[-1], guide.iloc[-1])
-    axes.annotate(name, end, (4, 0), textcoords="offset points", size=style.label_size(), va="center")
+    style.name_point(axes, name, (part.cells.iloc[-1], guide.iloc[-1]), (4, 0), va="center")
 
 
 def course(table: pd.DataFrame, gamma: str) -> str:
@@ -74,11 +74,12 @@ def course(table: pd.DataFrame, gamma: str) -> str:
     return f"at most {largest}" + f", in the end {last}" * (largest != last)
 
 
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+def caption(table: pd.DataFrame, theory: pd.DataFrame, results: Sequence[Result]) -> str:
+    courses = listed(f"{course(table, gamma)} at γ = {gamma}" for gamma in table.gamma.unique())
+    dashed = " (a) The dashed line shows the mean field." if len(theory) else ""
     return f"""
-        The paper plots the conductivity κ = −J_U N/(T_N − T_1) and reads N^(1/3) at γ = N and N at γ = 1 ({baths(results[0])}, λ = 1/N,
-        {parameters(results, "sigma")}). Here exponents (b) are {course(table, "N")} at γ = N, and {course(table, "1")} at γ = 1. (a) The blue
-        line shows the mean field. {ERRORS}"""
+        The paper reads the conductivity κ = −J_U N/(T_N − T_1) as N^(1/3) at γ = N and as N at γ = 1. Here
+        ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])}) exponents (b) are {courses}.{dashed} {ERRORS}"""
 
 
 @plots("deterministic deterministic-large rare rare-small mean-field")
@@ -87,22 +88,25 @@ def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(shown)
     theory = mean_field([result for result in results if result.provenance["program"] == "boltzmann"])
     figure, (above, below) = style.stacked(2, 1.2, height=1.6)
+    looks = style.by_gamma(table.gamma)
     for gamma, part in table.groupby("gamma", sort=False):
-        look = style.points(*LOOKS[gamma])
-        slope, power, text = GUIDES[gamma]
-        draw_guide(above, part, slope, power)
-        style.guide_at(below, slope, text)
+        look = style.points(*looks[gamma])
+        if gamma in GUIDES:
+            slope, power, text = GUIDES[gamma]
+            draw_guide(above, part, slope, power)
+            style.guide_at(below, slope, text)
         above.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
         below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
-    line: style.Look = {"color": LOOKS["N"][1], "linestyle": "dashed"}
-    above.plot(theory.cells, theory.mean_field_kappa, label=r"$\gamma = N$, mean field", **line)
-    below.plot(theory.middle, theory.mean_field_exponent_to_next, **line)
+    for gamma, line in theory.groupby("gamma"):
+        color, label = looks.get(gamma, ("", style.BLACK))[1], rf"$\gamma = {gamma}$, mean field"
+        above.plot(line.cells, line.mean_field_kappa, "--", color=color, label=label)
+        below.plot(line.middle, line.mean_field_exponent_to_next, "--", color=color)
     style.cross_out(above, table.cells, table.kappa, ~table.usable)
-    above.set(xscale="log", yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
-    below.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
-    low, high = above.get_xlim()
-    above.set_xlim(low, 1.6 * high)  # room for the names of the guides
+    style.against_size(below)
+    above.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
+    below.set_ylabel(r"$d\ln\kappa/d\ln N$")
+    above.margins(x=0.1)  # room for the names of the guides
     handles, labels = above.get_legend_handles_labels()
     above.legend(handles[::-1], labels[::-1], loc="upper left")
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
-    return figure, whole, caption(table, shown)
+    return figure, whole, caption(table, theory, shown)

@@ -7,6 +7,7 @@ met opposite to it; there is no peak from then on.
 
 import functools
 from collections.abc import Sequence
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -20,7 +21,8 @@ from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.closed import quasi_stationary
-from workflow.physics.pulse import in_order, label, look, look_of, resolved, start
+from workflow.physics.paper import PAPER
+from workflow.physics.pulse import in_order, label, look, look_of, named_start, resolved, start
 from workflow.physics.sound import Chain
 
 UNITS = {"distance": "1"}
@@ -39,6 +41,11 @@ def sound_speed(rest: Result) -> float:
     return Chain(particles / (2 * slow), run_parameters.mass(rest), temperature, length).sound_speed_in_cells
 
 
+def with_sound(result: Result) -> bool:
+    """Whether the speed of sound is known: from rest, where every particle scatters."""
+    return bool(result.parameters["gamma"] == "N" and start(result) == 0)
+
+
 def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:
     """Plots the energy difference at the times `shown`. Returns the table."""
     difference = result["energy_difference"]
@@ -47,7 +54,7 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
     closed = result["ring_closed"].mean == 1
     parts = []
     indices = np.flatnonzero(np.isin(times, shown))
-    for k, color, dashes in zip(indices, style.SEQUENCE, style.DASHES, strict=False):
+    for k, color, dashes in zip(indices, cycle(style.SEQUENCE), cycle(style.DASHES), strict=False):
         mean, error = difference.mean[k] / 1e3, difference.error[k] / 1e3
         alpha = FAINT if closed[k] else 1
         axes.plot(distance, mean, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$", alpha=alpha)
@@ -95,16 +102,16 @@ def motion(result: Result) -> str:
 def caption(results: Sequence[Result]) -> str:
     closed = any(result["ring_closed"].mean.any() for result in results)
     faint = " Faint rings are closed." if closed else ""
-    speed = motion(results[0])
-    if results[0].parameters["gamma"] == "N":
+    rest = results[0]
+    sound = " (d) Dashed: sound in the ring from rest." * with_sound(rest)
+    if rest.parameters["gamma"] == "N":
         peaks, near = "two peaks of almost constant speed", ""
-        sound = " (d) Dashed: sound in the ring from rest."
     else:
-        peaks, sound = "peaks of constant speed", " (d) Speeds refer to intervals."
+        peaks = "peaks of constant speed"
         near = " In the dips, particles are missing; the spike is the central scatterer, rarely hit."
     return f"""
-        The paper plots the effect ΔE(x, t) of an energy pulse and finds {peaks} ({parameters(results, "cells", "sigma", "particles_per_cell")}).
-        Here, from rest, the speed in cells per time {speed}.{near}{faint} (c) Dashed lines continue the
+        The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. Here ({parameters(results, "cells", "sigma", "particles_per_cell", paper=PAPER["fig09"])}),
+        {named_start(rest)}, the speed in cells per time {motion(rest)}.{near}{faint} (c) Dashed lines continue the
         first speed.{sound} {ERRORS}"""
 
 
@@ -126,7 +133,7 @@ def draw(results: Sequence[Result]) -> Parts:
     for result in results:
         tables.append(draw_profiles(panels[result.run], result, shown))
         draw_motion(position, speed, result)
-    if results[0].parameters["gamma"] == "N":
+    if with_sound(results[0]):
         style.guide_at(speed, sound_speed(results[0]), "sound, from rest", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
     name = rf"$\gamma = {run_parameters.gamma(results[0])}$"

@@ -16,16 +16,17 @@ from workflow.lib.figure import Parts
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
-from workflow.physics.pulse import in_order, label, look_of, resolved, start
+from workflow.physics.paper import PAPER
+from workflow.physics.pulse import in_order, label, look_of, named_start, resolved, start
 
 UNITS = dict.fromkeys(("exponent_from_here", "octave_exponent"), "1")
 UNITS |= {"speed_to_next": "1/time", "octave_middle": "time"}
 
 # By gamma: slopes of the guides, the paper's first, with their labels.
 Guides = dict[float, tuple[str, str]]
-SLOPES: dict[str | int, Guides] = {
+SLOPES: dict[str, Guides] = {
     "N": {-2 / 3: ("$t^{-2/3}$", "2/3"), -1 / 2: ("$t^{-1/2}$", "1/2")},
-    1: {-1: ("$t^{-1}$", "1")},
+    "1": {-1: ("$t^{-1}$", "1")},
 }
 SPAN = 0.15  # range of exponents shown on either side of the guides and of exponents with smaller errors
 UNSURE = 0.5  # relative error above which a height is not shown
@@ -61,29 +62,21 @@ def by_octave(result: Result) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["until", "octave_middle", "octave_exponent", "octave_exponent_error"])
 
 
-def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame) -> None:
+def draw_guides(above: Axes, below: Axes, slopes: Guides, table: pd.DataFrame) -> None:
     """Plots powers of t from one point on, above those of the longest times, and their exponents."""
     seen = table[table.cells == table.cells.max()].dropna(subset="peak")
     time = seen.time / seen.time.min()
-    start = ABOVE * max((seen.peak / time**slope).max() for slope in SLOPES[gamma]) / 1e3
-    for slope, (name, exponent) in SLOPES[gamma].items():
+    start = ABOVE * max(((seen.peak / time**slope).max() for slope in slopes), default=0) / 1e3
+    for slope, (name, exponent) in slopes.items():
         if len(seen):
             law = start * time**slope
             above.plot(seen.time, law, **style.GUIDE)
-            above.annotate(
-                name,
-                (seen.time.iloc[-1], law.iloc[-1]),
-                (2, 0),
-                textcoords="offset points",
-                size=style.label_size(),
-                va="center",
-            )
+            style.name_point(above, name, (seen.time.iloc[-1], law.iloc[-1]), (2, 0), va="center")
         style.guide_at(below, -slope, exponent)
     precise = table[table.octave_exponent_error < SPAN].octave_exponent
-    values = [*(-slope for slope in SLOPES[gamma]), *precise]
-    below.set_ylim(min(values) - SPAN, max(values) + SPAN)
-    low, high = above.get_xlim()
-    above.set_xlim(low, 1.35 * high)  # room for the names of the guides
+    if values := [*(-slope for slope in slopes), *precise]:
+        below.set_ylim(min(values) - SPAN, max(values) + SPAN)
+    above.set_xlim(right=1.35 * above.get_xlim()[1])  # room for the names of the guides
 
 
 def exponents(result: Result) -> str:
@@ -96,20 +89,18 @@ def exponents(result: Result) -> str:
 
 
 def caption(results: Sequence[Result]) -> str:
-    rest = results[0]
-    if rest.parameters["gamma"] == "N":
-        law, guides = "t^(−2/3)", "Dashed lines show 2/3 (sound) and 1/2 (shock)."
-    else:
-        law, guides = "t^(−1)", "The dashed line shows 1."
+    rest, gamma = results[0], run_parameters.gamma(results[0])
+    law = "t^(−2/3)" if gamma == "N" else "t^(−1)"
+    dashed = {"N": " Dashed lines show 2/3 (sound) and 1/2 (shock).", "1": " The dashed line shows 1."}
     long = max(results, key=lambda result: result.parameters["cells"])
     longer = (
-        f"; that of the Gaussian start in {long.parameters['cells']} cells {exponents(long)}"
+        f"; {named_start(long)} in {long.parameters['cells']} cells it {exponents(long)}"
         if long is not rest
         else ""
     )
     return f"""
-        The paper plots the height of the peak and reads {law} ({parameters([rest], "cells", "sigma", "particles_per_cell")}). Here the exponent from rest
-        {exponents(rest)}{longer}. (a) Heights are those of smooth fits. (b) Exponents are those of octaves. {guides} {ERRORS}"""
+        The paper reads the height of the peak as {law}. Here ({parameters([rest], "cells", "sigma", "particles_per_cell", paper=PAPER["fig10"])}) the exponent {named_start(rest)}
+        {exponents(rest)}{longer}. (a) Heights of smooth fits. (b) Exponents over octaves.{dashed.get(gamma, "")} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -122,9 +113,8 @@ def draw(results: Sequence[Result]) -> Parts:
         above.errorbar(sure.time, sure.peak / 1e3, sure.peak_error / 1e3, label=label(result), **look)
         below.errorbar(table.octave_middle, table.octave_exponent, table.octave_exponent_error, **look)
     table = pd.concat(tables)
-    gamma = results[0].parameters["gamma"]
     above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNIT_SYSTEM})")
-    draw_guides(above, below, gamma, table)
+    draw_guides(above, below, SLOPES.get(run_parameters.gamma(results[0]), {}), table)
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)

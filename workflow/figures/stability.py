@@ -5,6 +5,7 @@ The exact trajectories of the chain agree in both units, but every rounding diff
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -13,14 +14,14 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, scientific
+from workflow.lib.caption import ERRORS, parameters, scientific
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 
 TITLE = "Numerical stability"
 UNITS = dict.fromkeys(("collisions", "ratio", "difference", "relative_error"), "1")
 
-RULES = {"elastic": ("o", style.BLUE), "printed": ("s", style.VERMILLION)}
+RULES = {"elastic": "as computed here", "printed": "by the paper's formula"}
 LIMITS = {  # series in the order of the panel, with the parameter that is extreme
     "passing": ("gamma", r"\gamma"),
     "light": ("sigma", r"1 + \sigma"),
@@ -30,7 +31,6 @@ LIMITS = {  # series in the order of the panel, with the parameter that is extre
     "narrow": ("cell_length", r"\lambda"),
     "wide": ("cell_length", r"\lambda"),
 }
-SIZES = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.GREEN)]
 IDENTICAL = 1e-17  # where differences of 0 are plotted
 
 
@@ -103,8 +103,7 @@ def partings(results: Sequence[Result]) -> pd.DataFrame:
 
 def draw_drifts(axes: Axes, table: pd.DataFrame) -> None:
     """Plots drifts of the energy, and with open symbols of the momentum."""
-    for rule, (marker, color) in RULES.items():
-        part = table[table.rule == rule]
+    for (rule, part), (marker, color) in zip(table.groupby("rule"), cycle(style.LOOKS), strict=False):
         for name, face in (("energy_change", color), ("momentum_change", "white")):
             label = f"{name.partition('_')[0]}, {rule}"
             axes.errorbar(part.collisions, part[name], **style.points(marker, color, face, label=label))
@@ -123,7 +122,7 @@ def draw_limits(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_partings(axes: Axes, table: pd.DataFrame) -> None:
-    for (cells, part), (marker, color) in zip(table.groupby("cells"), SIZES, strict=False):
+    for (cells, part), (marker, color) in zip(table.groupby("cells"), cycle(style.LOOKS), strict=False):
         look = style.points(marker, color) | {"linestyle": "none"}
         axes.errorbar(part.collisions, part.difference.clip(lower=IDENTICAL), label=f"$N = {cells}$", **look)
         both = np.sqrt(2) * part.relative_error  # of the difference of two independent means
@@ -144,17 +143,22 @@ def parted(table: pd.DataFrame) -> str:
     return f"part after {', '.join(after)} collisions, averages by at most {score:.1f} errors"
 
 
-def caption(walks: pd.DataFrame, pairs: pd.DataFrame) -> str:
-    longest = walks[walks.observation_time == walks.observation_time.max()].set_index("rule").energy_change
+def caption(walks: pd.DataFrame, pairs: pd.DataFrame, sigma: str) -> str:
+    longest = (
+        walks[walks.observation_time == walks.observation_time.max()].groupby("rule").energy_change.max()
+    )
+    changes = ", ".join(f"by {scientific(drift)} {RULES.get(rule, rule)}" for rule, drift in longest.items())
+    same = f"; {scientific(IDENTICAL, 1)}: none" if (pairs.difference < IDENTICAL).any() else ""
     return f"""
-        (a) In {scientific(walks.collisions.max())} collisions at σ = 0.3 the energy changes by {scientific(longest["elastic"])} as computed here, by {scientific(longest["printed"])} by the
-        paper's formula. (b) Energy current over that of the limit; at γ = 10⁻³ a term of order γ is seen. (c) In two units of length trajectories
-        {parted(pairs)} (dotted: one error). {ERRORS}"""
+        (a) In {scientific(walks.collisions.max())} collisions at {sigma} the energy changes {changes}. (b) Energy
+        current over that of the limit. (c) In two units of length trajectories
+        {parted(pairs)} (dotted: one error{same}). {ERRORS}"""
 
 
 @plots(f"rounding unit tripled {' '.join(LIMITS)}")
 def draw(results: Sequence[Result]) -> Parts:
-    walks = drifts([result for result in results if result.series == "rounding"])
+    rounding = [result for result in results if result.series == "rounding"]
+    walks = drifts(rounding)
     known = limits([result for name in LIMITS for result in results if result.series == name])
     pairs = partings([result for result in results if result.series in ("unit", "tripled")])
     figure, panels = plt.subplots(1, 3, figsize=(3 * style.COLUMN, style.HEIGHT))
@@ -162,4 +166,4 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_limits(panels[1], known)
     draw_partings(panels[2], pairs)
     style.letter(*panels)
-    return figure, pd.concat([walks, known, pairs]), caption(walks, pairs)
+    return figure, pd.concat([walks, known, pairs]), caption(walks, pairs, parameters(rounding, "sigma"))

@@ -1,11 +1,11 @@
 """Text that captions share. Every number in a caption comes from the result files."""
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
-import numpy as np
-
-from workflow.lib.load import NOT_STATIONARY, NOT_TESTED, Result
+from workflow.lib.load import NOT_STATIONARY, NOT_TESTED, UNDEFINED, Result
 
 SYMBOLS = {
     "cells": "N = {}",
@@ -20,27 +20,27 @@ SYMBOLS = {
     "temperature_right": "T_R = {}",
     "energy": "ε⁰ = {}",
     "pulse_energy": "ε̃ = {}",
+    "times": "t = {}",
 }
 BATHS = ("nu_left", "nu_right", "temperature_left", "temperature_right")
-PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
 RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 FEW = 3  # runs that are named one by one
-DOUBTS = {NOT_STATIONARY: "Not stationary", NOT_TESTED: "With too few replicas to test whether stationary"}
+DOUBTS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
+DOUBTS |= {NOT_TESTED: "With too few replicas to test whether stationary"}
 ERRORS = "Bars show standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def format_number(value: float) -> str:
-    """The value with four digits, or as a fraction of up to three digits over 2, 3 or 9, and with a
-    typographic minus sign."""
-    fraction = Fraction(value).limit_denominator(10)
-    exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
-    if exact and fraction.denominator in (2, 3, 9) and abs(fraction.numerator) < 1000:
-        text = str(fraction)
-    else:
-        text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
-    return text.replace("-", "−")
+    """The shortest text of the value: a fraction of up to three digits over 2, 3 or 9, or as few digits as
+    give the value back; with a typographic minus sign."""
+    number = float(value)
+    fraction = Fraction(number).limit_denominator(9)
+    exact = math.isclose(fraction, number, rel_tol=1e-12) and fraction.denominator in (2, 3, 9)
+    digits, _, power = repr(number).partition("e")
+    text = str(fraction) if exact and abs(fraction.numerator) < 1000 else digits.removesuffix(".0")
+    return text.replace("-", "−") + (f"·{power_of_ten(int(power))}" if power else "")
 
 
 def listed(texts: Iterable[str]) -> str:
@@ -49,21 +49,32 @@ def listed(texts: Iterable[str]) -> str:
     return f"{', '.join(most)} and {last}" if most else last
 
 
-def parameters(results: Sequence[Result], *names: str) -> str:
+def parameters(results: Sequence[Result], *names: str, paper: Mapping[str, list[Any]] | None = None) -> str:
     """The named parameters that the results have, with all their values: `N = 11, σ = −1/2 and 1/2`; by
-    the name of the option without a symbol."""
-    texts = []
-    for name in names:
+    the name of the option without a symbol. paper: what it states (physics/paper.py). All parameters that
+    differ from it are named, with its values: `n = 40 (paper: 20)`; equal baths are `the paper's baths`."""
+    stated, texts = paper or {}, {}
+    for name in dict.fromkeys((*names, *stated)):
         values = {result.parameters[name] for result in results if name in result.parameters}
-        numbers = sorted(value for value in values if not isinstance(value, str))
-        words = sorted(value for value in values if isinstance(value, str))
-        if values:
-            texts.append(
-                SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}").format(
-                    listed([*map(format_number, numbers), *words])
-                )
-            )
-    return ", ".join(texts)
+        differ = name in stated and not all(_agrees(value, stated[name]) for value in values)
+        if values and (differ or name in names):
+            text = SYMBOLS.get(name, f"{name.replace('_', '-')} = {{}}").format(_as_list(values))
+            texts[name] = f"{text} (paper: {_as_list(stated[name])})" if differ else text
+    if {*BATHS} <= texts.keys() & stated.keys() and not any("paper" in texts[name] for name in BATHS):
+        texts = {name: text for name, text in texts.items() if name not in BATHS} | {"": "the paper's baths"}
+    return ", ".join(texts.values())
+
+
+def _agrees(value: Any, stated: Collection[Any]) -> bool:
+    return value in stated or (not isinstance(value, str) and f"{value:.3f}" in stated)
+
+
+def _as_list(values: Collection[Any]) -> str:
+    """Numbers in ascending order, then words."""
+    numbers = sorted(value for value in values if not isinstance(value, str))
+    return listed(
+        [*map(format_number, numbers), *sorted(value for value in values if isinstance(value, str))]
+    )
 
 
 def rule(result: Result) -> str:
@@ -80,23 +91,13 @@ def rule(result: Result) -> str:
 
 
 def with_doubts(caption: str, results: Sequence[Result]) -> str:
-    """The caption, with a sentence on results that are not stationary, and one on those that were not
-    tested. Panels with a point for each also cross them out."""
+    """The caption, with a sentence on results without a value, one on those that are not stationary, and one
+    on those that were not tested. Panels with a point for each also cross them out."""
     for doubt, text in DOUBTS.items():
         runs = [result.run for result in results if doubt in result.doubts]
         if runs:
             caption += f" {text}: {listed(runs) if len(runs) <= FEW else f'{len(runs)} runs'}."
     return caption
-
-
-def baths(result: Result) -> str:
-    """`the paper's baths`, or others as `baths ν = 100, T = 100 and 120`, left and right; equal values are
-    given once."""
-    values = [float(result.parameters[name]) for name in BATHS]
-    if np.allclose(values, PAPERS_BATHS):
-        return "the paper's baths"
-    both = [listed(dict.fromkeys(map(format_number, result.ends(name)))) for name in ("nu", "temperature")]
-    return f"baths ν = {both[0]}, T = {both[1]}"
 
 
 def replicas(results: Sequence[Result]) -> str:

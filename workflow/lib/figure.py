@@ -63,6 +63,10 @@ class TheoryError(ValueError):
     """A theory does not hold for the results."""
 
 
+class NoValueError(ValueError):
+    """All values of a panel are undefined."""
+
+
 def require_elastic(results: Sequence[Result], theory: str) -> None:
     """Raises TheoryError if a result has another collision rule than the paper's."""
     for result in results:

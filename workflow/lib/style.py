@@ -1,5 +1,7 @@
 """Style of the figures: sizes, fonts, and colours that are distinct in grey and for colour-blind readers."""
 
+from collections.abc import Iterable
+from itertools import cycle
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
@@ -37,12 +39,13 @@ BLUE, ORANGE, GREEN, VERMILLION, SKY = "C0", "C1", "C2", "C3", "C4"
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
 DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 
-# Marker and colour by gamma.
-BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
+# Markers and colours of series of points.
+LOOKS = [("o", BLUE), ("s", VERMILLION), ("^", GREEN), ("D", ORANGE), ("v", SKY)]
 
 # Style of the shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
+# Lines with this zorder or less are no data: they may end outside of the frame.
 GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
 POINTS: Look = {
@@ -98,6 +101,17 @@ def apply() -> None:
 def points(marker: str, color: str, face: str | None = None, **more: Any) -> Look:
     """Style of measured points. face: fill colour of the marker, if it differs from its edge."""
     return {**POINTS, "marker": marker, "color": color, "markerfacecolor": face or color, **more}
+
+
+def by_gamma(gammas: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Marker and colour for each gamma: circles for N and squares for another, as in the paper."""
+    others = [gamma for gamma in dict.fromkeys(gammas) if gamma != "N"]
+    return dict(zip(["N", *others], cycle(LOOKS), strict=False))
+
+
+def name_point(axes: Axes, name: str, point: tuple[float, Any], lift: tuple[int, int], **look: Any) -> None:
+    """Writes a name beside a point, at a distance in points."""
+    axes.annotate(name, point, lift, textcoords="offset points", size=label_size(), **look)
 
 
 def band(axes: Axes, x: ArrayLike, value: ArrayLike, error: ArrayLike, color: str) -> None:

@@ -10,7 +10,14 @@ from workflow.lib.load import Quantity, Result
 from workflow.physics import run_parameters
 
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
-SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
+FAINT = 1e-4  # fraction of the largest flux below which momenta are not shown
+
+
+def reach(flux: Quantity) -> float:
+    """Largest |p| in panels of the flux F(p): the end of the bins in which it exceeds FAINT of its maximum."""
+    momentum = flux.axes["momentum"]
+    bright = np.abs(momentum[(flux.mean > FAINT * flux.mean.max()).any(axis=0)])
+    return float(bright.max() + (momentum[1] - momentum[0]) / 2)
 
 
 def at(quantity: Quantity, x: float) -> np.ndarray:

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from workflow.lib import style
+from workflow.lib.caption import format_number
 from workflow.lib.load import Result
 
-# By run: marker, colour, fill colour and label; in the order of the legends, the paper's start first.
+# By run: marker, colour and fill colour; in the order of the legends, the paper's start first.
 LOOKS = {
-    "rest": ("s", style.VERMILLION, "white", "from rest, as in the paper"),
-    "gaussian": ("o", style.BLUE, style.BLUE, "Gaussian start"),
-    "long": ("^", style.SKY, style.SKY, "Gaussian, $N = {cells}$"),
+    "rest": ("s", style.VERMILLION, "white"),
+    "gaussian": ("o", style.BLUE, style.BLUE),
+    "long": ("^", style.SKY, style.SKY),
 }
 
 
@@ -19,9 +20,15 @@ def start(result: Result) -> str | float:
     return result.parameters["scatterer_temperature"]
 
 
-def look(result: Result) -> tuple[str, str, str, str]:
-    """Marker, colour, fill colour and label; runs of the user's own have their name."""
-    return LOOKS.get(result.run, ("P", style.BLACK, style.BLACK, result.run))
+def named_start(result: Result) -> str:
+    """The start in words, `from rest` in the paper."""
+    words = {"particles": "from a Gaussian start", 0: "from rest"}
+    return words.get(start(result)) or f"from scatterers at T = {format_number(float(start(result)))}"
+
+
+def look(result: Result) -> tuple[str, str, str]:
+    """Marker, colour and fill colour."""
+    return LOOKS.get(result.run, ("P", style.BLACK, style.BLACK))
 
 
 def in_order(results: Sequence[Result]) -> list[Result]:
@@ -30,12 +37,16 @@ def in_order(results: Sequence[Result]) -> list[Result]:
 
 
 def label(result: Result) -> str:
-    return look(result)[3].format(cells=result.parameters["cells"])
+    """Start and size, those of the paper marked; runs of the user's own have their name."""
+    if result.run not in LOOKS:
+        return result.run
+    paper = ", as in the paper" if start(result) == 0 else ""
+    size = f", $N = {result.parameters['cells']}$" if result.run == "long" else ""
+    return named_start(result) + paper + size
 
 
 def look_of(result: Result) -> style.Look:
-    marker, color, face, _ = look(result)
-    return style.points(marker, color, face)
+    return style.points(*look(result))
 
 
 def resolved(values: np.ndarray) -> np.ndarray:

@@ -12,9 +12,8 @@ def both_rates(result: Result) -> float:
 
 
 def gamma(result: Result) -> str:
-    """Value of gamma as text: N or a number."""
-    value = result.parameters["gamma"]
-    return value if value == "N" else f"{value:g}"
+    """Value of gamma as text: N or a number; `none` of a program without it."""
+    return str(result.parameters.get("gamma", "none")).removesuffix(".0")
 
 
 def mass(result: Result) -> float:
@@ -33,7 +32,7 @@ def spacing(result: Result) -> tuple[float, str]:
     given = result.parameters["cell_length"]
     if given == "1/N":
         return 1 / int(result.parameters["cells"]), "1/N"
-    return float(given), f"{given:g}"
+    return float(given), f"{given}".removesuffix(".0")
 
 
 def in_order_of_spacing(results: Sequence[Result]) -> list[Result]:

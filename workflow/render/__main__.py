@@ -18,11 +18,12 @@ import h5py
 from workflow.lib import style
 from workflow.lib.caption import with_doubts
 from workflow.lib.columns import TableError, as_csv, inherited
-from workflow.lib.figure import Plot, TheoryError
+from workflow.lib.figure import NoValueError, Plot, TheoryError
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, cost_file, load
 from workflow.lib.units import UnitsError
 from workflow.render.files import format_os_error
+from workflow.render.frame import with_outside
 from workflow.render.record import SHARED, panel_identity, sources_of_panel
 from workflow.render.save import Parents, Text, save
 
@@ -43,7 +44,7 @@ def render(
 ) -> None:
     """Writes the files of a panel. script: its path; stem: FOLDER/QUALITY/PANEL; results: paths; inputs: other
     files and folders that the script uses; planned: identity of the panel, "" if none is planned. Raises
-    FormatError, OSError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError."""
+    REFUSED, OSError."""
     panel, sources = Path(stem).name, sources_of_panel(script, inputs)
     identity = panel_identity(panel, results, sources)
     if planned not in (identity, ""):
@@ -60,7 +61,7 @@ def render(
     errors = {f"{column}_error": text for column, text in units.items()}
     numbers = as_csv(table, inherited(loaded) | errors | units)
     shown = module.draw.shown(loaded) if isinstance(module.draw, Plot) else loaded
-    whole = with_doubts(" ".join(caption.split()), shown)
+    whole = with_doubts(with_outside(" ".join(caption.split()), figure), shown)
     title = module.title(shown) if hasattr(module, "title") else module.TITLE
     text = Text(" ".join(title.split()), whole)
     doubts = {str(result.path): result.doubts for result in loaded if result.doubts}
@@ -109,12 +110,15 @@ def _open_hdf5(name: bytes, *arguments: Any, original: Any = h5py.h5f.open, **na
     return original(name, *arguments, **named)
 
 
+REFUSED = (FormatError, NoValueError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError)
+
+
 def main(job: str) -> int:
     try:
         render(**json.loads(job))
     except OSError as error:
         print(format_os_error(error), file=sys.stderr)
-    except (FormatError, TheoryError, UndeclaredError, UnitsError, TableError, EditedError) as error:
+    except REFUSED as error:
         print(error, file=sys.stderr)
     except Exception as error:  # a mistake in the script; the last line is printed by make
         traceback.print_exc()

@@ -16,12 +16,7 @@ from workflow.lib.identity import IDENTITY, ROOT, identity_of, sha256
 
 FORMATS = ("pdf", "png", "svg", "csv")  # of the files of a panel
 FORMER = "build/records"  # folder of the records of former figures, of which there may be copies
-SHARED = (
-    "workflow/lib",
-    "workflow/physics",
-    "workflow/render",
-    "uv.lock",
-)  # on which all figures depend
+SHARED = ("workflow/lib", "workflow/physics", "workflow/render", "uv.lock")  # on which all figures depend
 RELEASE = "paper"  # the quality of the release
 NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which other qualities state
 IDENTITY_LINE = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())

@@ -7,6 +7,7 @@ and a time [eq. 58]. The table also has other gases.
 """
 
 from collections.abc import Iterable, Sequence
+from itertools import cycle
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
@@ -46,7 +47,7 @@ LOOKS: dict[str, list[tuple[str, str, str | None]]] = {
     "rotation": [("s", style.BLUE, None), ("D", style.SKY, None)],
 }
 LOOKS |= {"reversal": [("v", style.VERMILLION, "white"), ("^", style.ORANGE, "white")]}
-
+OTHER_RULES: list[tuple[str, str, str | None]] = [("P", style.GREEN, None), ("X", style.GREEN, None)]
 
 OTHERS = style.points(".", "0.6", linestyle="-", linewidth=0.5, zorder=1)
 
@@ -54,8 +55,9 @@ OTHERS = style.points(".", "0.6", linestyle="-", linewidth=0.5, zorder=1)
 def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
     """Looks of all cases, in the order of the legend."""
     found: dict[Case, style.Look] = {}
-    for rule, own in LOOKS.items():
+    for rule in dict.fromkeys([*LOOKS, *sorted({case.rule for case in cases})]):
         of_rule = sorted({case for case in cases if case.rule == rule})
+        own = cycle(LOOKS.get(rule, OTHER_RULES))
         found |= {case: style.points(*look) for case, look in zip(of_rule, own, strict=False)}
     return found
 
@@ -89,8 +91,8 @@ def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
 def growth(chains: pd.DataFrame, case: Case) -> str:
     """kappa of a case at the largest size that all curves have, over that at the smallest."""
     fixed = of_case(chains, case)
-    (row,) = fixed[fixed.cells == max(common_sizes(chains))].itertuples()
-    return format_with_error(row.growth, row.growth_error)
+    rows = fixed[fixed.cells == max(common_sizes(chains))]
+    return format_with_error(*rows[["growth", "growth_error"]].iloc[0]) if len(rows) else "(unknown)"
 
 
 def last_exponent(control: pd.DataFrame, case: Case) -> str:
@@ -102,17 +104,17 @@ def last_exponent(control: pd.DataFrame, case: Case) -> str:
     return format_with_error(end.local_exponent - 1, end.local_exponent_error)
 
 
-def caption(chains: pd.DataFrame, control: pd.DataFrame, cases: Sequence[Case]) -> str:
+def caption(chains: pd.DataFrame, control: pd.DataFrame, cases: Sequence[Case], *, others: bool) -> str:
     sizes = common_sizes(chains)
     epsilon = min(case.epsilon for case in cases if case.rule == "reversal")
     compared = [Case("elastic", 0), Case("rotation", epsilon), Case("reversal", epsilon)]
     elastic, rotated, broken = (growth(chains, case) for case in compared)
     ends = [last_exponent(control, case) for case in compared[1:]]
+    grey = " Grey: without noise, in other gases." if others else ""
     return f"""
         Noise that conserves energy and momentum (rotation, filled), or energy alone (reversal, open), in a fraction of the collisions.
         (a) In chains κ({max(sizes)})/κ({min(sizes)}) is {elastic} without noise, {rotated} and {broken} at {100 * epsilon:g} %. (b) In rings ⟨Q²⟩ ∼ t^β;
-        at {100 * epsilon:g} % β − 1 ends at {ends[0]} and {ends[1]}. Grey: without noise, in other
-        gases. {ERRORS}"""
+        at {100 * epsilon:g} % β − 1 ends at {ends[0]} and {ends[1]}.{grey} {ERRORS}"""
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
@@ -131,7 +133,7 @@ def draw_rings(axes: Axes, control: pd.DataFrame, look: dict[Case, style.Look]) 
         axes.errorbar(part.middle, part.local_exponent - 1, part.local_exponent_error, **points)
     style.guide_at(axes, 0, "0")
     style.guide_at(axes, 1 / 3, "1/3")
-    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$", ylim=(-0.2, 0.75))
+    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$")
 
 
 RINGS = "light light-long light-longest dense-longest dilute-longest sparse-longest rotation reversal "
@@ -159,11 +161,11 @@ def draw(results: Sequence[Result]) -> Parts:
     gas = rf"$\sigma = {format_number(float(of_rings[0].parameters['sigma']))}$, $\zeta = {broken.zeta:g}$"
     one = next(result for result in results if result not in of_rings)
     sigma, spacing = float(one.parameters["sigma"]), run_parameters.spacing(one)[1]
-    of_chains = rf"chains, $\sigma = {sigma:g}$, $\lambda = {spacing}$"
+    of_chains = rf"chains, $\sigma = {format_number(sigma)}$, $\lambda = {spacing}$"
     for axes, text in zip(panels, (of_chains, f"rings, {gas}"), strict=True):
         axes.set_title(text, size=style.label_size())
     handles, labels = panels[0].get_legend_handles_labels()
     labels += ["no noise, other gases"] * bool(others)
     figure.legend([*handles, *others[:1]], labels, loc="outside upper center", ncols=3)
     style.letter(*panels)
-    return figure, pd.concat([chains, table]), caption(chains, control, cases)
+    return figure, pd.concat([chains, table]), caption(chains, control, cases, others=bool(others))

@@ -7,15 +7,7 @@ import numpy as np
 
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.study.results import (
-    MissingError,
-    Results,
-    by_size,
-    combination,
-    estimate,
-    log_slope,
-    power,
-)
+from workflow.study.results import MissingError, Results, by_size, combination, estimate, log_slope, power
 from workflow.study.rings import chain, gas
 from workflow.study.verdict import Estimate
 
@@ -131,7 +123,8 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
 
 def _gas(ring: Result) -> str:
     scaled = chain(ring)
-    return f"ζ = {format_number(scaled.zeta)}, M = {format_number(scaled.mass)}"
+    zeta, mass = (format_number(float(f"{value:.13g}")) for value in (scaled.zeta, scaled.mass))
+    return f"ζ = {zeta}, M = {mass}"
 
 
 def _last_time(ring: Result) -> float:

@@ -1,0 +1,129 @@
+"""Nothing that is plotted is lost in silence: points outside of frames, series without a look, undefined values."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+
+from tests.python.conftest import ROOT, command_line
+from tests.python.plotted import CHAIN, draw, points, result
+from workflow.figures import accuracy, fig03_inset, fig09, stability
+from workflow.lib import style
+from workflow.lib.caption import with_doubts
+from workflow.lib.figure import NoValueError
+from workflow.physics.fluxes import MEAN_FIELD, SIMULATION
+from workflow.render.frame import with_outside
+from workflow.study import momentum
+
+MANY = 7  # more than there are looks
+
+
+def test_points_outside_of_the_frames_are_counted() -> None:
+    """Two points are above the frame, one of them crossed out; four are negative on a logarithmic axis.
+    Detected mistakes: ends of error bars, guides and NaN are counted, a point is counted twice."""
+    figure, (above, below) = plt.subplots(2)
+    x, y = np.arange(1.0, 6), np.array([1.0, 2, 9, 10, np.nan])
+    above.errorbar(x, y, 20 + y, **style.points("o", style.BLUE))
+    style.cross_out(above, x, y, y == 9)
+    above.plot(x, 100 * x, **style.GUIDE)
+    above.axhline(50)
+    above.set_ylim(1, 5)
+    assert with_outside("Text.", figure) == "Text. 2 points are outside the frames."
+    below.errorbar(x, -x + 1.5, 0.1, **style.points("o", style.BLUE))
+    below.set(yscale="log")
+    assert with_outside("Text.", figure) == "Text. 6 points are outside the frames."
+    above.set_ylim(0, 10)
+    below.set(yscale="linear")
+    assert with_outside("Text.", figure) == "Text."
+    plt.close(figure)
+
+
+def test_the_frame_of_fig02_upper_follows_the_baths() -> None:
+    """Between T = 50 and T = 200, 25 of 60 points were outside of the frame."""
+    cells = np.arange(30)
+    profile = (60 + 4 * cells, {"cell": cells})
+    laws = {
+        "temperature_scatterer": profile,
+        "temperature_particle": profile,
+        "temperature_difference": profile,
+    }
+    baths = {"temperature_left": 50.0, "temperature_right": 200.0}
+    (above, _), _, _ = draw("fig02_upper", [result("deterministic", CHAIN | baths, **laws)])
+    assert with_outside("", above.figure) == ""
+    low, high = above.get_ylim()
+    assert low < baths["temperature_left"]
+    assert high > baths["temperature_right"]
+
+
+def looks_of(*axes: plt.Axes) -> int:
+    """Number of series of points."""
+    return sum(len(points(each)) for each in axes)
+
+
+def test_more_series_than_looks_are_all_plotted() -> None:
+    """Detected mistake: series from the fifth or sixth on are dropped."""
+    sizes = np.arange(2, 2 + MANY)
+    _, (of_sizes, targets, partings, kinetic) = plt.subplots(1, 4)
+    rows = [
+        {"kind": kind, "cells": size, "momentum": -1.0, "deviation": 0.1, "error": 0.1}
+        for kind in (SIMULATION, MEAN_FIELD) for size in sizes
+    ]  # fmt: skip
+    fig03_inset.draw_end(of_sizes, pd.DataFrame(rows), -1, 2, "left end")
+    run = {"cpu_seconds": 1.0, "deviation": 0.1, "error": 0.1}
+    runs = pd.DataFrame([run | {"target_error": 0.1 / size, "gamma": str(size)} for size in sizes])
+    accuracy.draw_targets(targets, runs.assign(series="target"))
+    accuracy.draw_kinetic(kinetic, runs.assign(series="kinetic"))
+    pairs = pd.DataFrame({"cells": sizes, "collisions": 1.0, "difference": 0.1, "relative_error": 0.1})
+    stability.draw_partings(partings, pairs)
+    assert looks_of(of_sizes, targets, partings) == 3 * MANY
+    assert len(kinetic.get_legend().get_texts()) == MANY
+    cases = [momentum.Case(rule, 0.1 * size) for rule in ("rotation", "reversal", "mine") for size in sizes]
+    assert {*momentum.looks(cases)} == {*cases}
+    plt.close("all")
+
+
+def test_a_pulse_is_plotted_at_all_times_shown() -> None:
+    times = np.linspace(0.01, 0.07, MANY)
+    axes = {"time": times, "cell": np.arange(5.0)}
+    laws = {"energy_difference": (np.ones((MANY, 5)), axes), "ring_closed": (np.zeros(MANY), {"time": times})}
+    _, panel = plt.subplots()
+    fig09.draw_profiles(panel, result("rest", {"cells": 5, "scatterer_temperature": 0.0}, **laws), times)
+    assert len(panel.get_lines()) == MANY
+    plt.close("all")
+
+
+def test_a_panel_without_a_value_is_refused_in_one_line(tmp_path: Path) -> None:
+    """Between equal baths κ is undefined. Detected mistake: a traceback, `cannot be log-scaled`."""
+    path = tmp_path / "data/deterministic.h5"
+    path.parent.mkdir()
+    options = {"cells": 4, "replicas": 4, "observation-time": 2, "relaxation-time": 1, "output": path}
+    options |= {"temperature-left": 100, "temperature-right": 100}
+    subprocess.run(command_line("conductivity", options), check=False, stderr=subprocess.DEVNULL)
+    job = {"script": "workflow/figures/fig08.py", "stem": str(tmp_path / "fig08"), "results": [str(path)]}
+    command = [sys.executable, "-m", "workflow.render", json.dumps(job)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.startswith("no value to draw: ")
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_figure_with_undefined_and_other_points_is_drawn() -> None:
+    figure, axes = plt.subplots()
+    axes.plot([1, 2], [np.nan, np.nan], "o")
+    with pytest.raises(NoValueError):
+        with_outside("Text.", figure)
+    axes.plot([1, 2], [np.nan, 1], "o")
+    assert with_outside("Text.", figure) == "Text."
+    plt.close(figure)
+
+
+def test_a_run_without_a_value_is_named() -> None:
+    """Detected mistake: a size is missing in fig. 8 without a word."""
+    run = result("rare_cells=32", CHAIN, kappa=np.nan)
+    run.provenance["target_quantity"] = "kappa"
+    assert with_doubts("Text.", [run]) == "Text. Without a value: rare_cells=32."
