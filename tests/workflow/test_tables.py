@@ -8,15 +8,17 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
+import duckdb
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+import polars as pl
 import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.scale import OTHER, ROUNDING, agree
 from workflow.lib import style
-from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv
+from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv, as_text
 from workflow.lib.load import NOT_REACHED, Quantity, Result, load
 from workflow.lib.units import UnitsError
 from workflow.pipeline.load_panel import load_panel
@@ -174,6 +176,32 @@ FRAME = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", "b"]})
 def test_a_table_that_its_csv_would_not_hold_is_refused(table: pd.DataFrame, remedy: str) -> None:
     with pytest.raises(TableError, match=remedy):
         as_csv(table, {"sigma": "1"})
+
+
+def test_labels_stay_apart_and_numbers_have_one_kind() -> None:
+    """Detected mistakes: labels 010 and 10 become equal numbers; a column begins with whole numbers and has
+    fractions later."""
+    labels = ["010", "10", "1e3", "N", 2]
+    table = pd.DataFrame({"label": labels, "sigma": [1, 2.5, 1e20, np.nan, -3.0], "count": range(5)})
+    text = as_text(table)
+    assert text.splitlines()[1] == "label=010,1.0,0"
+    read = pd.read_csv(io.StringIO(text))
+    assert read.label.nunique() == len(labels)
+    assert read[["sigma", "count"]].equals(table[["sigma", "count"]])
+    with pytest.raises(TableError, match="complex"):
+        as_text(pd.DataFrame({"label": [1j]}))
+
+
+@pytest.mark.parametrize("panel", [*SHIPPED])
+def test_other_programs_read_the_same_table(smoke: Path, panel: str) -> None:
+    """Polars and DuckDB find the type of a column by its first rows."""
+    path = smoke / f"figures/smoke/{panel}.csv"
+    expected = pd.read_csv(path, comment="#")
+    for read in (
+        pd.DataFrame(pl.read_csv(path, comment_prefix="#").to_dict(as_series=False)),
+        duckdb.sql(f"SELECT * FROM read_csv('{path}', comment='#')").df(),
+    ):
+        pd.testing.assert_frame_equal(read, expected, check_dtype=False, rtol=1e-12)
 
 
 def test_rows_may_be_selected_and_unknown() -> None:

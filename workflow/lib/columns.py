@@ -8,6 +8,7 @@ import io
 import json
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import pandas as pd
 from pandas.api.types import is_bool_dtype, is_integer_dtype, is_scalar
@@ -48,17 +49,21 @@ def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
 
 
 def as_text(table: pd.DataFrame, digits: int = 12) -> str:
-    """The table as CSV, with so many digits. Numbers of a column with fractions have a point, also those
-    that are whole, by which programs take the column for one of fractions. Raises TableError if the text
-    would not be read as the table."""
+    """The table as CSV, with so many digits. In a column with fractions whole numbers have a point, too, and
+    labels among which some are numbers begin with the name of the column, as gamma=1 and gamma=N: programs
+    that read the text find the type of a column by its first rows. Raises TableError if the text would not
+    be read as the table."""
 
     def number(value: float) -> str:
         text = f"{value:.{digits}g}"
         return f"{text}.0" if text.removeprefix("-").isdigit() else text
 
     _require_columns(table)
-    text = table.to_csv(index=False, float_format=number, lineterminator="\n")
-    _require_equal(table, text)
+    named = {
+        name: [_named(name, cell) for cell in cells] for name, cells in table.items() if _has_number(cells)
+    }
+    text = table.assign(**named).to_csv(index=False, float_format=number, lineterminator="\n")
+    _require_no_loss(table, text)
     return text
 
 
@@ -79,29 +84,31 @@ def _require_columns(table: pd.DataFrame) -> None:
             raise TableError(f"the column {name} has complex numbers: give both parts a column")
 
 
-def _require_equal(table: pd.DataFrame, text: str) -> None:
-    """Raises TableError unless programs that read the text, as read_csv(comment="#"), make numbers of the
-    numbers and words of the words."""
+def _require_no_loss(table: pd.DataFrame, text: str) -> None:
+    """Raises TableError if read_csv(comment="#") finds missing values elsewhere."""
     if "#" in text:
         raise TableError("# begins a comment in the CSV: choose another name for a column or label")
     read = pd.read_csv(io.StringIO(text))
     missing = read.isna().to_numpy() != table.isna().to_numpy()
     for name in table.columns[missing.any(axis=0)]:
         raise TableError(f"a label in the column {name} would be read as missing: choose other words")
-    for name, cells in table.items():
-        words = [cell for cell in cells if isinstance(cell, str)]
-        if words and len(words) < cells.notna().sum():
-            raise TableError(f"the column {name} has numbers and words: give words a column of their own")
-        if any(map(_is_number, words)):
-            raise TableError(f"a label in the column {name} would be read as a number: choose other words")
 
 
-def _is_number(word: str) -> bool:
+def _has_number(cells: pd.Series) -> bool:
+    """Whether a column of labels has a number, or a word that would be read as one."""
+    return any(isinstance(cell, str) for cell in cells) and any(map(_is_number, cells.dropna()))
+
+
+def _is_number(cell: object) -> bool:
     try:
-        float(word)
+        float(str(cell))
     except ValueError:
         return False
     return True
+
+
+def _named(name: str, cell: Any) -> Any:
+    return cell if pd.isna(cell) else f"{name}={cell}" if isinstance(cell, str) else f"{name}={cell:g}"
 
 
 def _is_label(column: pd.Series) -> bool:
