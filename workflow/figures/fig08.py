@@ -74,12 +74,11 @@ def course(table: pd.DataFrame, gamma: str) -> str:
     return f"at most {largest}" + f", in the end {last}" * (largest != last)
 
 
-def caption(table: pd.DataFrame, theory: pd.DataFrame, results: Sequence[Result]) -> str:
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     courses = listed(f"{course(table, gamma)} at γ = {gamma}" for gamma in table.gamma.unique())
-    dashed = " (a) The dashed line shows the mean field." if len(theory) else ""
     return f"""
         The paper reads the conductivity κ = −J_U N/(T_N − T_1) as N^(1/3) at γ = N and as N at γ = 1. Here
-        ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])}) exponents (b) are {courses}.{dashed} {ERRORS}"""
+        ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])}) exponents (b) are {courses}. {ERRORS}"""
 
 
 @plots("deterministic deterministic-large rare rare-small mean-field")
@@ -105,8 +104,8 @@ def draw(results: Sequence[Result]) -> Parts:
     style.against_size(below)
     above.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
     below.set_ylabel(r"$d\ln\kappa/d\ln N$")
-    above.margins(x=0.1)  # room for the names of the guides
+    above.margins(x=0.13)  # room for the names of the guides
     handles, labels = above.get_legend_handles_labels()
     above.legend(handles[::-1], labels[::-1], loc="upper left")
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
-    return figure, whole, caption(table, theory, shown)
+    return figure, whole, caption(table, shown)
