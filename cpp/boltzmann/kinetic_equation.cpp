@@ -356,13 +356,14 @@ void KineticSolution::iterate(Matrix f) {
   constexpr double longest = 0.1;       // step that is taken at most
   constexpr int limit = 200;
   const double rates = problem_.left.rate + problem_.right.rate;
-  for (double last = jacobian_ ? 0 : std::numeric_limits<double>::infinity();;) {
-    const Matrix change = step(f, last > frozen);
+  double last = std::numeric_limits<double>::infinity();
+  for (bool renew = !jacobian_;; renew = last > frozen) {
+    const Matrix change = step(f, renew);
     const double size = largest(change) / rates;
     // Of a geometric series of steps; where rounding makes them equal, of 100 more of them.
     iteration_error_ = size / (1 - std::min(size / last, 0.99));
     const bool at_rest = size < rounding || (size < acceptable && size > 0.9 * last);
-    if (at_rest || (evaluations_ == limit && iteration_error_ < 0.1)) return;
+    if (at_rest) return;
     if (!(size < 1e6) || evaluations_ == limit)
       throw ConvergenceError(
           "Newton's iteration for the Boltzmann equation did not converge, because its steps do not become "

@@ -6,9 +6,8 @@
 /// with F(p > 0) at x = 0 and F(p < 0) at x = 1 given by the reservoirs (half-Gaussian) [eq. 5]. With --cells
 /// it is solved for a chain of N scatterers, each with its own F and g (mean field) [eq. 41].
 ///
-/// The result is deterministic. The error of a quantity is its difference from the solution one resolution
-/// level below, plus rounding. The former is the error of the coarser solution, so the accuracy is limited by
-/// the latter.
+/// The result is deterministic. The error of a quantity is the sum of the changes with the order of the
+/// series that are still to come, if they fall as the last two did, and rounding.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -204,10 +204,24 @@ double largest(const std::vector<double>& values) {
   return result;
 }
 
-/// Largest difference over all positions and momenta, because two solutions cross at some of them.
+/// Largest difference over all positions and momenta, because two solutions cross at some of them; infinite
+/// if only one of them is defined somewhere.
 double difference(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::isfinite(a[i]) != std::isfinite(b[i])) return std::numeric_limits<double>::infinity();
+    a[i] -= b[i];
+  }
   return largest(a);
+}
+
+/// Bound on the error of the last of three values: the sum of a geometric series of changes, where the orders
+/// increase by one factor. A tenth of the former change, if it is larger than the last one, as two solutions
+/// may agree by chance.
+double remainder(const std::vector<double>& first, const std::vector<double>& second,
+                 const std::vector<double>& last) {
+  const double former = difference(second, first), change = difference(last, second);
+  const double ratio = former > 0 ? std::min(change / former, 0.99) : 0.;
+  return std::max(change, 0.1 * former) / (1 - ratio);
 }
 
 /// Values of all quantities, in the order of the definitions.
@@ -219,16 +233,14 @@ Values evaluate(const std::vector<Definition>& definitions, const Profile& profi
   return values;
 }
 
-/// The quantities at the last order. Their errors are the differences from those at the order before; a tenth
-/// of those at the order before that, if it is larger, as two solutions may agree by chance; and `rounding`.
+/// The quantities at the last of at least three orders, with their errors.
 Results results(const std::vector<Definition>& definitions, const std::vector<Values>& orders,
                 double rounding) {
   Results results;
   for (std::size_t k = 0; k < definitions.size(); ++k) {
     const std::vector<double>& values = orders.back()[k];
-    double error = difference(values, orders[orders.size() - 2][k]);
-    if (orders.size() > 2) error = std::max(error, 0.1 * difference(values, orders[orders.size() - 3][k]));
-    error += rounding * std::max(definitions[k].scale, largest(values));
+    const double error = remainder(orders[orders.size() - 3][k], orders[orders.size() - 2][k], values) +
+                         rounding * std::max(definitions[k].scale, largest(values));
     std::vector<double> errors;
     for (const double value : values) errors.push_back(std::isfinite(value) ? error : none);
     results.push_back({definitions[k].what, values, errors});
@@ -236,19 +248,24 @@ Results results(const std::vector<Definition>& definitions, const std::vector<Va
   return results;
 }
 
-/// Largest error of F and its limits at p = 0, relative to the largest F, and of the currents. Currents may
-/// vanish: their errors are relative to the injected current over 1 + gamma if that is larger.
+/// Largest error of F and its limits at p = 0, relative to the largest F of a bath, nu sqrt(2/(pi T)), and of
+/// the currents. Currents may vanish: their errors are relative to the injected current over 1 + gamma if
+/// that is larger.
 double relative_error(const Parameters& parameters, const Results& results) {
   const auto error_of = [&](const char* name) {
     return largest(quantity_named(results, name).standard_error);
   };
+  const KineticProblem problem = parameters.problem();
+  const auto peak = [](const auto& bath) {
+    return bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
+  };
   double error = std::max(error_of("flux_density"), error_of("jump")) /
-                 largest(quantity_named(results, "flux_density").mean);
+                 std::max(peak(problem.left), peak(problem.right));
   for (const Definition& current : definitions(parameters))
     if (current.scale > 0)
       error = std::max(error, error_of(current.what.name.c_str()) /
                                   std::max(largest(quantity_named(results, current.what.name).mean),
-                                           current.scale / (1 + parameters.problem().gamma)));
+                                           current.scale / (1 + problem.gamma)));
   return error;
 }
 
@@ -265,7 +282,7 @@ RunResult solve(const Parameters& parameters, Progress& progress) try {
       solution = std::make_unique<KineticSolution>(parameters.problem(), order, solution.get());
       outcome.events += static_cast<std::uint64_t>(solution->evaluations());
       orders.push_back(evaluate(quantities, Profile(parameters, *solution)));
-      if (orders.size() < 2) continue;
+      if (orders.size() < 3) continue;
       outcome.results = results(quantities, orders, rounding + solution->iteration_error());
       outcome.achieved_error = relative_error(parameters, outcome.results);
       if (outcome.achieved_error > parameters.target_error) continue;

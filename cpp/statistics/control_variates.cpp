@@ -24,6 +24,11 @@ double dot(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
 }
 
+/// Standard deviation of a column.
+double deviation(const Records& records, std::size_t column) {
+  return norm(centred(matrix_of(records, {column})), 0) / std::sqrt(static_cast<double>(records.size()) - 1);
+}
+
 /// The least number of records for a regression on so many columns.
 std::size_t records_needed(std::size_t columns) {
   return columns > 0 ? std::max(3 * columns, columns + 8) : 0;
@@ -60,10 +65,6 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
 
 double variance_ratio(const Records& a, const Records& b, const Columns& columns) {
   double sum = 0, varying = 0;
-  const auto deviation = [](const Records& records, std::size_t column) {
-    return norm(centred(matrix_of(records, {column})), 0) /
-           std::sqrt(static_cast<double>(records.size()) - 1);
-  };
   for (const std::size_t column : columns) {
     const double plain = deviation(b, column);
     if (!(plain > 0)) continue;
@@ -75,8 +76,8 @@ double variance_ratio(const Records& a, const Records& b, const Columns& columns
 }
 
 Group::Prepared reduce_variance(const Records& records, const std::vector<Regression>& regressions) {
-  // Residual part of the variance of a column that the controls determine.
-  constexpr double determined = 1e-12;
+  // Residual part of the standard deviation of a column that the controls determine.
+  constexpr double determined = 1e-6;
   Records reduced = records;
   Columns measured;
   std::size_t needed = 0, fitted = 0;
@@ -88,11 +89,9 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
     fitted = std::max(fitted, columns);
     for (std::size_t k = 0; k < corrected->width(); ++k) {
       const std::size_t column = regression.measured[k];
+      if (deviation(*corrected, k) < determined * deviation(records, column)) continue;
+      measured.push_back(column);
       for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = (*corrected)[i][k];
-      if (variance_ratio(reduced, records, {column}) >= determined)
-        measured.push_back(column);
-      else
-        for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = records[i][column];
     }
   }
   const bool used = !measured.empty() && variance_ratio(reduced, records, measured) < 1;

@@ -40,24 +40,21 @@ class Bins {
   double max_, per_unit_;
 };
 
-/// Sums of weights by bin, and of all weights.
+/// Sums of weights by bin.
 class Histogram {
  public:
   explicit Histogram(const Bins& bins) : bins_(bins), weights_(bins.count(), 0) {}
 
   void add(double value, double weight = 1) {
-    total_ += weight;
     const std::size_t bin = bins_[value];
     if (bin < weights_.size()) weights_[bin] += weight;
   }
 
   const std::vector<double>& weights() const { return weights_; }
-  double total() const { return total_; }  // also of values outside the bins
 
  private:
   Bins bins_;
   std::vector<double> weights_;
-  double total_ = 0;
 };
 
 }  // namespace lorentz

@@ -183,6 +183,6 @@ def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:
     late["peak"].mean[2] = late["local_damping_exponent"].mean[1] = np.nan
     assert [*fig10.by_octave(late).until] == [0.02, 0.04]
     single["local_damping_exponent"].error[...] = np.nan
-    assert fig10.exponents(single) == "goes from 0.6 to 0.4"
+    assert fig10.exponents(single) == "goes from 0.6(?) to 0.4(?)"
     table = pd.DataFrame({"sigma": [-0.5, 0, 0.2, 0.5], "alpha": [1.1, 1.9, np.nan, 1.2], "alpha_error": 0.1})
     assert [fig07_inset.extreme(table, row) for row in (0, -1)] == ["1.10(10)", "1.20(10)"]

@@ -107,5 +107,5 @@ def test_the_excess_of_waiting_times_is_that_of_the_tail() -> None:
     table = table.assign(density=table.gaussian_start * [3, 1.08, 1.22, 5], density_error=0.04, unsure=False)
     table.loc[3, "unsure"] = True
     sentence = fig06.above_exact(table, Result(ROOT, options, {}, {}))
-    assert sentence.startswith(" At σ = 0 its tail is 14.0(1.0) % above")
+    assert sentence.startswith(" At σ = 0 the tail is 14.0(1.0) % above")
     assert sentence.endswith("7.9 %.")

@@ -57,7 +57,7 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, an
     lines = numbers_file(judged(verdict)).decode().splitlines()
     assert lines[:2] == [
         "claim,kind,claim_verdict,quantity,value,error,systematic,number_verdict",
-        f"C01,literal,{verdict},first,0.5,0.001,0,{verdict}",
+        f"C01,literal,{verdict},first,0.5,0.001,0.0,{verdict}",
     ]
     assert len(lines) == 1 + len(NUMBERS) * claims
 

@@ -65,6 +65,8 @@ def test_the_report_is_complete_and_loads_nothing(smoke: Path) -> None:
     pictures = [base64.b64decode(one) for one in re.findall(r'svg\+xml;base64,([^"]*)"', text)]
     assert not any(b"<text" in picture for picture in pictures)  # outlines: browsers have no fonts of TeX
     assert re.findall(r"<script|<link|@import|url\(|javascript:", text) == []
+    words = re.sub(r"<style.*?</style>|<[^>]*>", "", text, flags=re.DOTALL)
+    assert re.findall(r".*[:(,]\s*[.;)].*", words) == []  # a list of numbers without numbers
     for link in links:
         inside = (
             link.removeprefix("#") in ids if link.startswith("#") else link.startswith("https://doi.org/")

@@ -45,7 +45,8 @@ class TableError(ValueError):
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
     """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid
     units, TableError if the CSV would not be read as the table."""
-    return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{as_text(table)}"
+    text = as_text(table)
+    return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{text}"
 
 
 def as_text(table: pd.DataFrame, digits: int = 12) -> str:

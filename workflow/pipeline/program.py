@@ -54,7 +54,7 @@ def compile_programs() -> list[str]:
         return []
     if lacking:
         number = f"{len(lacking)} program{'s' * (len(lacking) > 1)}"
-        print(f"Compiling {number}; all take about a minute on two cores", flush=True)
+        print(f"Compiling {number}; all ten take about 70 seconds of CPU time", flush=True)
     done = subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=False)
     failed = [f"cpp/observables/{name}.cpp" for name in unbuilt()] if done.returncode else []
     if not 0 < len(failed) < len(programs()):
