@@ -85,3 +85,14 @@ def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> Non
         TheoryError, match=r"holds for elastic collisions only, and .* has the rule random-direction"
     ):
         draw([Result(ROOT, {"rule": "random-direction", "nu_left": 1}, {}, {})])
+
+
+@pytest.mark.parametrize(
+    ("script", "name"),
+    [("fig08", "sigma"), ("fig04", "sigma"), ("fig03_inset", "nu_left"), ("fig06", "particles_per_cell")],
+)
+def test_a_panel_plots_one_value_of_what_it_does_not_tell_apart(script: str, name: str) -> None:
+    """Detected mistakes: slopes between runs of different sigma; a theory for other parameters."""
+    draw = importlib.import_module(f"workflow.figures.{script}").draw
+    with pytest.raises(TheoryError, match=rf"plots one {name.replace('_', '-')}, and the runs have 1 and 2"):
+        draw([Result(ROOT, {name: value}, {}, {}) for value in (1, 2)])

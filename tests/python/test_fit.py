@@ -54,6 +54,9 @@ def test_format_with_error_has_two_digits_of_the_error() -> None:
         (-0.322, 0.0517): "−0.322(52)",
         (2.5, np.nan): "2.5(?)",
         (-2.5, 0): "−2.5",
+        (123456, 0): "123456",
+        (-1e-4, 0.01): "0.000(10)",
+        (-np.inf, np.inf): "unknown",
     }
     assert {numbers: format_with_error(*numbers) for numbers in texts} == texts
 

@@ -77,7 +77,7 @@ def test_the_mistake_is_found(tree: Tree, patch: Path) -> None:
 @pytest.mark.parametrize("patch", PYTHON_PATCHES, ids=lambda patch: patch.stem)
 def test_the_mistake_in_python_is_found(patch: Path, tmp_path: Path) -> None:
     mistake, source, test = head(patch).groups()
-    for name in ("workflow", "tests", "cpp", "data/claims.csv"):
+    for name in ("workflow", "tests", "cpp"):
         copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
         (tmp_path / name).parent.mkdir(exist_ok=True)
         copy(ROOT / name, tmp_path / name)

@@ -7,6 +7,7 @@ import pytest
 from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT, planned, sampled
+from workflow.lib.identity import run_name
 from workflow.pipeline.configuration import PANELS, ConfigurationError, Options
 from workflow.pipeline.plan import Plan, Run
 from workflow.pipeline.program import threads_of
@@ -81,6 +82,14 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
         "target-error": 0.005,
         "target-scale": 200,
     }
+
+
+def test_a_name_belongs_to_one_panel_and_is_that_of_a_file(tmp_path: Path) -> None:
+    own = tmp_path / "own.yaml"
+    own.write_text("panels: {fig05: {uses: [fig06]}}\n")
+    with pytest.raises(ConfigurationError, match=r"panels.fig05: is a panel of workflow/config/paper.yaml"):
+        Plan("smoke", [PANELS[0], own])
+    assert "/" not in run_name("chain", {"cell-length": "1/N"})
 
 
 def test_threads_share_the_replicas() -> None:

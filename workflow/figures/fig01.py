@@ -83,7 +83,7 @@ def caption(results: Sequence[Result]) -> str:
         {style.format_quantity(chain["front_exponent"])}.{columns} (e), (f) Dashed: stationary flux.{fewer} {ERRORS}"""
 
 
-@plots("unit-spacing unit-chain")
+@plots("unit-spacing unit-chain", varying="cell_length")
 def draw(results: Sequence[Result]) -> Parts:
     results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)

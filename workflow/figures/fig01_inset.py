@@ -88,7 +88,7 @@ def caption(results: Sequence[Result]) -> str:
         filled chains the slope equals the height of |p| n_t(|p|), {height} in (c). {ERRORS}"""
 
 
-@plots("unit-spacing unit-chain")
+@plots("unit-spacing unit-chain", varying="cell_length")
 def draw(results: Sequence[Result]) -> Parts:
     results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)

@@ -41,7 +41,7 @@ def caption(results: Sequence[Result]) -> str:
         (b) Density over the lines. {ERRORS}"""
 
 
-@plots("deterministic rare")
+@plots("deterministic rare", varying="gamma")
 def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(1.7, 1, height=1.5)
     tables = [tabulate(result) for result in results]

@@ -49,7 +49,7 @@ def caption(results: Sequence[Result]) -> str:
         (a) E_K is T/2. (b) Particles and scatterers differ most at γ = {gamma}, by {farthest}. {ERRORS}"""
 
 
-@plots("deterministic rare")
+@plots("deterministic rare", varying="gamma")
 def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(2, 1, height=1.6, width=1.1)
     tables = [tabulate(result) for result in results]

@@ -72,7 +72,7 @@ def caption(results: Sequence[Result], outgoing: float) -> str:
         {100 * OFTEN:g} % of its maximum{dotted}."""
 
 
-@plots("paper equal")
+@plots("paper equal", varying="temperature_left temperature_right")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     shown = reach(results[0]["flux_density"])

@@ -114,7 +114,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum (c) is {listed(largest)}. (a), (b) Lines show the mean field. {ERRORS}"""
 
 
-@plots("simulation continuum mean-field")
+@plots("simulation continuum mean-field", varying="cells")
 def draw(results: Sequence[Result]) -> Parts:
     require_elastic(results, "the kinetic equation")
     table = deviations(results)

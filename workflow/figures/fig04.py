@@ -154,7 +154,10 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
         (d) The jumps are {jumps_of(unequal)}{equal}. {ERRORS}"""
 
 
-@plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")
+@plots(
+    "rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile",
+    varying="cells gamma nu_left nu_right temperature_left temperature_right",
+)
 def draw(results: Sequence[Result]) -> Parts:
     table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]

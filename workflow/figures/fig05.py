@@ -80,7 +80,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Dashes: the law at the conserved Π. {ERRORS}"""
 
 
-@plots("paper zero-momentum dense")
+@plots("paper zero-momentum dense", varying="sigma particles_per_cell zero_total_momentum")
 def draw(results: Sequence[Result]) -> Parts:
     require_elastic(results, "the law arccos(σ)/π")
     table = tabulate(results)

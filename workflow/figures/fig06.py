@@ -104,22 +104,25 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     return f" At σ = 0 the tail is {excess} % above n → ∞; expected: {expected:.2g} %."
 
 
-def caption(results: Sequence[Result], young: Result, tables: Sequence[pd.DataFrame]) -> str:
+def caption(results: Sequence[Result], young: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     powers = listed(f"−{power} at σ = {format_number(sigma)}" for sigma, power in POWERS.items())
     exponents = listed(style.format_quantity(result["exponent"]) for result in results)
     pairs = zip(results, tables, strict=True)
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
-    younger = f"{results[0].parameters['relaxation_time'] / young.parameters['relaxation_time']:.3g}"
+    early = ""
+    if young:
+        younger = results[0].parameters["relaxation_time"] / young[0].parameters["relaxation_time"]
+        early = f" ({younger:.3g} times earlier: {listed(style.format_quantity(one['exponent']) for one in young)})"
     return f"""
         The paper gives the density Ψ(τ) of waiting times the exponents {powers}. Here ({parameters(results, "gamma", "particles_per_cell", paper=PAPER["fig06"])})
-        they are {exponents} in the shaded windows ({younger} times earlier: {style.format_quantity(young["exponent"])}).{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
+        they are {exponents} in the shaded windows{early}.{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
 
 
-@plots("all young")
+@plots("all young", varying="sigma")
 def draw(results: Sequence[Result]) -> Parts:
-    young = next(result for result in results if result.series == "young")
+    young = [result for result in results if result.series == "young"]
     results = sorted(
-        (result for result in results if result is not young), key=lambda result: result.parameters["sigma"]
+        (result for result in results if result not in young), key=lambda result: result.parameters["sigma"]
     )
     tables = [tabulate(result) for result in results]
     figure, (above, *strips) = style.stacked(2.4, *[1] * len(results), height=0.8 + 0.5 * len(results))

@@ -54,7 +54,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
         {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. (b) Exponents are local. {ERRORS}"""
 
 
-@plots("all zero-momentum")
+@plots("all zero-momentum", varying="zero_total_momentum")
 def draw(results: Sequence[Result]) -> Parts:
     results = sorted(results, key=zero)
     tables = [tabulate(result) for result in results]

@@ -80,7 +80,7 @@ def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
         {extreme(kinds[PAPERS], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""
 
 
-@plots("all zero-momentum aged random")
+@plots("all zero-momentum aged random", varying="sigma zero_total_momentum rule")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     shown = tabulate([result for result in results if result.series != "aged"])

@@ -81,7 +81,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])}) exponents (b) are {courses}. {ERRORS}"""
 
 
-@plots("deterministic deterministic-large rare rare-small mean-field")
+@plots("deterministic deterministic-large rare rare-small mean-field", varying="cells gamma")
 def draw(results: Sequence[Result]) -> Parts:
     shown = [result for result in results if result.provenance["program"] == "conductivity"]
     table = tabulate(shown)

@@ -115,7 +115,7 @@ def caption(results: Sequence[Result]) -> str:
         first speed.{sound} {ERRORS}"""
 
 
-@plots("rest gaussian")
+@plots("rest gaussian", varying="scatterer_temperature")
 def draw(results: Sequence[Result]) -> Parts:
     results = in_order(results)
     figure, panels = plt.subplot_mosaic(

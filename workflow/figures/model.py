@@ -117,7 +117,7 @@ def baths(axes: Axes, energies: PowerNorm) -> None:
     axes.set_xlim(-BATH, CELLS + BATH)
 
 
-@plots("")
+@plots("", varying="")
 def draw(_: Sequence[Result]) -> Parts:
     closed, row = flights(ring=True, seed=1), flights(ring=False, seed=1)
     table = pd.concat([closed, row], ignore_index=True)

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters, scientific
-from workflow.lib.figure import Parts, plots
+from workflow.lib.figure import PHYSICS, Parts, plots
 from workflow.lib.load import Result
 
 TITLE = "Numerical stability"
@@ -155,7 +155,7 @@ def caption(walks: pd.DataFrame, pairs: pd.DataFrame, sigma: str) -> str:
         {parted(pairs)} (dotted: one error{same}). {ERRORS}"""
 
 
-@plots(f"rounding unit tripled {' '.join(LIMITS)}")
+@plots(f"rounding unit tripled {' '.join(LIMITS)}", varying=" ".join(PHYSICS))
 def draw(results: Sequence[Result]) -> Parts:
     rounding = [result for result in results if result.series == "rounding"]
     walks = drifts(rounding)

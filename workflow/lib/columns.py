@@ -60,6 +60,7 @@ def as_text(table: pd.DataFrame, digits: int = 12) -> str:
         return f"{text}.0" if text.removeprefix("-").isdigit() else text
 
     _require_columns(table)
+    table = table.infer_objects()
     named = {
         name: [_named(name, cell) for cell in cells] for name, cells in table.items() if _has_number(cells)
     }

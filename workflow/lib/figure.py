@@ -22,16 +22,24 @@ Parts = tuple[
     Figure, pd.DataFrame, str
 ]  # figure, table of the plotted numbers, caption as one paragraph of plain text
 
+PHYSICS = (  # parameters of a model; others are effort, or times and bins
+    *("cells", "sigma", "gamma", "cell_length", "particles_per_cell", "fugacity", "zero_total_momentum"),
+    *("temperature", "scatterer_temperature", "energy", "pulse_energy", "rule"),
+    *("nu_left", "nu_right", "temperature_left", "temperature_right"),
+)
+
 Draw = Callable[[Sequence[Result]], Parts]
 
 
 @dataclass(frozen=True)
 class Plot:
     """draw() of a script that plots series by their names. It names others of the panel in the caption and
-    on stderr."""
+    on stderr. varying: parameters that tell the curves and points apart; others have one value, or runs would
+    be taken for one another, and theories for those of other parameters."""
 
     function: Draw
     series: tuple[str, ...]
+    varying: frozenset[str]
 
     def shown(self, results: Iterable[Result]) -> list[Result]:
         """The results of these series; all if none of them is given, as by a panel of one's own with this
@@ -42,6 +50,7 @@ class Plot:
     def __call__(self, results: Iterable[Result]) -> Parts:
         given = [*results]
         shown = self.shown(given)
+        self.require_one_value(shown)
         figure, table, caption = self.function(shown)
         if len(shown) == len(given):
             return figure, table, caption
@@ -52,11 +61,26 @@ class Plot:
             print(f"Not shown: {listed(others)}; to plot it, extend {script}", file=sys.stderr)
         return figure, table, caption
 
+    def require_one_value(self, results: Sequence[Result]) -> None:
+        """Raises TheoryError if a parameter that the script does not tell apart has several values."""
+        for name in (name for name in PHYSICS if name not in self.varying):
+            given = [result.parameters for result in results if name in result.parameters]
+            values = {parameters[name] for parameters in given}
+            if name == "cell_length" and not any(isinstance(value, str) for value in values):
+                # One length of all chains is one value, too.
+                lengths = {f"{one[name] * one['cells']:.9g}" for one in given}
+                values = values if len(lengths) > 1 else set()
+            if len(values) > 1:
+                option, script = name.replace("_", "-"), Path(inspect.getfile(self.function)).name
+                raise TheoryError(
+                    f"{script} plots one {option}, and the runs have {listed(sorted(map(str, values)))}: make a panel of each"
+                )
 
-def plots(series: str) -> Callable[[Draw], Plot]:
-    """Decorator of draw(), which then takes the results of these series only. series: names, separated by
-    blanks."""
-    return lambda draw: Plot(draw, tuple(series.split()))
+
+def plots(series: str, varying: str) -> Callable[[Draw], Plot]:
+    """Decorator of draw(), which then takes the results of these series only. series: names, varying:
+    parameters in which they may differ, both separated by blanks."""
+    return lambda draw: Plot(draw, tuple(series.split()), frozenset(varying.split()))
 
 
 class TheoryError(ValueError):

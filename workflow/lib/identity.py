@@ -40,7 +40,8 @@ def panel_of(result: Path | str) -> str:
 
 def run_name(series: str, values: Mapping[str, object]) -> str:
     """Name of a run: its series, and the values chosen of the options that have a list of them."""
-    return "_".join([series, *(f"{option}={value}" for option, value in sorted(values.items()))])
+    words = [series, *(f"{option}={value}" for option, value in sorted(values.items()))]
+    return "_".join(words).replace("/", "over")  # as in cell-length=1/N
 
 
 def series_of(run: str) -> str:

@@ -133,11 +133,22 @@ def _shown(path: Path) -> str:
 
 def panel_names(files: Sequence[Path] = PANELS) -> list[str]:
     """Names of the panels, also before the programs are compiled. Raises ConfigurationError."""
-    names = []
-    for document in (read(file) for file in files if file.exists()):
+    documents = [read(file) for file in files if file.exists()]
+    for document in documents:
         document.check(_object({"panels": NAMED}) | {"required": ["panels"]})
-        names += [*document.content["panels"]]
-    return names
+    require_distinct(documents)
+    return [name for document in documents for name in document.content["panels"]]
+
+
+def require_distinct(documents: Sequence[Document]) -> None:
+    """Raises ConfigurationError if two files have a panel of one name."""
+    names: dict[str, Document] = {}
+    for document in documents:
+        for name in document.content["panels"]:
+            if name in names:
+                text = f"is a panel of {names[name].name}: choose another name"
+                raise ConfigurationError(document.complaint(("panels", name), text))
+            names[name] = document
 
 
 def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document, Document]:

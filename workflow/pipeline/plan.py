@@ -22,6 +22,7 @@ from workflow.pipeline.configuration import (
     load_configuration,
     merge_efforts,
     programs_of,
+    require_distinct,
 )
 from workflow.pipeline.polynomial import evaluated
 from workflow.pipeline.selection import DEFAULT_QUALITY, Selection
@@ -38,6 +39,7 @@ from workflow.render.record import (
 )
 
 FIGURES = "figures"
+FIGURE_SCRIPTS = "workflow/figures"
 REPORT = "report"
 RESULT = "{panel}/{run}.{identity}.h5"  # below data/SELECTION
 PYTHON = ".venv/bin/python"
@@ -163,6 +165,7 @@ class Plan:
             for file in files
             if file.exists() or file == files[0]
         ]
+        require_distinct([document for document, _ in read])
         default = read[0][1].content["default"]
         found = {
             name: self._panel(name, panel, efforts.content, default, document.file)
@@ -218,7 +221,12 @@ class Plan:
             effort = merge_efforts({}, *general, own.get(series, {}))
             replaced += [f"{key} of {series}" for key in effort if key in physics]
             runs += self._runs(name, series, program, physics | effort)
-        script = f"{SCRIPTS.get(file, 'workflow/figures')}/{panel.get('script', name)}.py"
+        paths = [
+            f"{folder}/{panel.get('script', name)}.py"
+            for folder in (SCRIPTS.get(file), FIGURE_SCRIPTS)
+            if folder
+        ]
+        script = next((path for path in paths if (ROOT / path).exists()), paths[0])
         inputs = tuple(
             path for path in panel.get("inputs", ()) if path != NUMBERS or states_release(self.selection.name)
         )

@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, format_number
-from workflow.lib.figure import Parts, plots
+from workflow.lib.figure import PHYSICS, Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
@@ -140,7 +140,7 @@ RINGS = "light light-long light-longest dense-longest dilute-longest sparse-long
 CHAINS = "chain-elastic chain-rotation chain-reversal"
 
 
-@plots(RINGS + CHAINS)
+@plots(RINGS + CHAINS, varying=" ".join(PHYSICS))
 def draw(results: Sequence[Result]) -> Parts:
     of_rings = [result for result in results if result.provenance["program"] == "heat_current"]
     chains = tabulate([result for result in results if result not in of_rings])
