@@ -80,8 +80,9 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
     return None
 
 
-def faults_of_results(runs: Mapping[str, Run]) -> Iterator[Fault]:
-    yield from filter(None, (fault_of_result(path, run) for path, run in runs.items()))
+def faults_of_results(runs: Mapping[str, Run]) -> dict[str, Fault]:
+    """Faults by the planned paths."""
+    return {path: fault for path, run in runs.items() if (fault := fault_of_result(path, run))}
 
 
 def edited(panels: Iterable[Panel]) -> Iterator[Fault]:
@@ -181,7 +182,7 @@ def check(panels: Sequence[Panel], render: bool) -> Iterator[Fault]:
     unknown = {
         path: run for path, run in runs_of(panels).items() if plotted.get(path) != hash_if_readable(path)
     }
-    results = {path: fault for path, run in unknown.items() if (fault := fault_of_result(path, run))}
+    results = faults_of_results(unknown)
     files = {panel.name: fault for panel in panels if (fault := fault_of_files(panel))}
     yield from [*results.values(), *files.values()]
     if render:
@@ -206,10 +207,11 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     requested = [plan[name] for name in names] or [*plan]
     made = [panel for panel in requested if is_made(panel)]
     rest = [panel for panel in requested if panel not in made]
-    # Results of other panels, as of a quality without pictures: those that are missing are no fault.
-    unplotted = {path: run for path, run in runs_of(rest).items() if path not in runs_of(made)}
-    faults = [*check(made, render), *faults_of_results(unplotted)]
-    faults = [fault for fault in faults if fault.state != "missing" or fault.path not in unplotted]
+    plotted = runs_of(made)
+    unplotted = {path: run for path, run in runs_of(rest).items() if path not in plotted}
+    faults = [*check(made, render)]
+    # Of panels without pictures, results that are missing are no fault.
+    faults += [fault for fault in faults_of_results(unplotted).values() if fault.state != "missing"]
     alike = defaultdict(list)
     if not names and plan.report:
         if is_made(plan.report):
@@ -226,7 +228,7 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     states = Counter(fault.state for fault in faults)
     listed = ", ".join(f"{number} {state}" for state, number in states.items()) or "all hold"
     if made:
-        print(f"{len(made)} panel{'s' * (len(made) > 1)} with {len(runs_of(made))} results: {listed}")
+        print(f"{len(made)} panel{'s' * (len(made) > 1)} with {len(plotted)} results: {listed}")
     broken = states.keys() - {"not checked"}
     if broken & {"stale", "missing"}:
         target = f"panel PANEL={quote(' '.join(names))}" if names else "report"

@@ -31,11 +31,12 @@ def make(target: str, selection: str, names: list[str], options: argparse.Namesp
     """Makes what is missing of a target of DONE; with DRY=yes, lists it. names: of the panels of the target
     `panel`. After an effort compares with the results of the quality. Returns the exit status. Raises
     ConfigurationError, BuildError, OSError, CalledProcessError."""
-    if not options.dry:
+    if options.dry:
+        plan = Plan(selection)
+        panels = requested(plan, target, names)
+    else:
         lock_products()
-        compile_if_necessary(target, selection, names)
-    plan = Plan(selection)
-    panels = requested(plan, target, names)
+        plan, panels = with_programs(target, selection, names)
     unmade = [panel for panel in panels if panel.is_incomplete()]
     runs = runs_of(panels)
     results = missing(runs)
@@ -78,12 +79,17 @@ def requested(plan: Plan, target: str, names: Sequence[str]) -> list[Panel]:
     return [plan[name] for name in names] or (plan.paper if target == "figures" else [*plan])
 
 
-def compile_if_necessary(target: str, selection: str, names: Sequence[str]) -> None:
-    """Compiles the programs if results are missing: rendering needs no compiler. Raises CalledProcessError."""
+def with_programs(target: str, selection: str, names: Sequence[str]) -> tuple[Plan, list[Panel]]:
+    """Plan and panels of a target. Before, compiles the programs if results are missing: rendering needs no
+    compiler. Raises ConfigurationError, CalledProcessError."""
     with suppress(ConfigurationError):  # perhaps by former programs
-        if not missing(runs_of(requested(Plan(selection), target, names))):
-            return
+        plan = Plan(selection)
+        panels = requested(plan, target, names)
+        if not missing(runs_of(panels)):
+            return plan, panels
     compile_programs()
+    plan = Plan(selection)
+    return plan, requested(plan, target, names)
 
 
 def report_defects(plan: Plan, panels: Sequence[Panel]) -> None:
@@ -153,21 +159,17 @@ def progress(panels: Sequence[Panel], results: Sequence[str]) -> Iterator[None]:
 def report_failure(panels: Sequence[Panel], begin: float) -> None:
     """Prints a line for each panel that is not made, with the reason from a log that was written after a
     time."""
-    failed = [panel for panel in panels if panel.is_incomplete()]
-    without = []
+    failed, without = [panel for panel in panels if panel.is_incomplete()], []
     for panel in failed:
         logs = [path.removesuffix("h5") + "log" for path in missing(run.path for run in panel.plotted)]
-        log = next((log for log in [*logs, panel.log] if printed_by(log, begin)), "")
-        if log:
-            print(f"{panel.name}: {printed_by(log).splitlines()[-1]} ({log})", file=sys.stderr)
+        found = ((log, text) for log in [*logs, panel.log] if (text := printed_by(log, begin)))
+        if first := next(found, None):
+            print(f"{panel.name}: {first[1].splitlines()[-1]} ({first[0]})", file=sys.stderr)
         else:
             without.append(panel.name)
     if without:
-        reason = (
-            ""
-            if without != [panel.name for panel in failed]
-            else f": {printed_by(str(LOG)).splitlines()[-1]}"
-        )
+        alone = len(without) == len(failed)  # otherwise Snakemake's last line is on the panels above
+        reason = f": {printed_by(str(LOG)).splitlines()[-1]}" if alone else ""
         print(f"{', '.join(without)}: not made{reason} ({LOG})", file=sys.stderr)
     if made := len(panels) - len(failed):
         print(f"{made} other panel{'s are' if made > 1 else ' is'} made", file=sys.stderr)

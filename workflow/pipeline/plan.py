@@ -167,16 +167,12 @@ class Plan:
         ]
         require_distinct([document for document, _ in read])
         default = read[0][1].content["default"]
-        found = {
-            name: self._panel(name, panel, efforts.content, default, document.file)
-            for document, efforts in read
-            for name, panel in document.content["panels"].items()
-        }
-        uses = {
-            name: panel.get("uses", ())
-            for document, _ in read
-            for name, panel in document.content["panels"].items()
-        }
+        found: dict[str, Panel] = {}
+        uses: dict[str, Sequence[str]] = {}
+        for document, efforts in read:
+            for name, panel in document.content["panels"].items():
+                found[name] = self._panel(name, panel, efforts.content, default, document.file)
+                uses[name] = panel.get("uses", ())
         for document, _ in read:
             self._check(document, found)
         self.panels = {

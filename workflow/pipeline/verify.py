@@ -50,9 +50,10 @@ def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
         run, again = runs[path], fresh / "again.h5"
         try:
             execute(run.program, run.options, again, fresh / "bin")
-            equal = equal_values(load(path), load(again))
+            one, other = load(path), load(again)
+            equal = equal_values(one, other)
             differing += not equal
-            text = "equal" if equal else f"differs: {least_probable(load(path), load(again))}"
+            text = "equal" if equal else f"differs: {least_probable(one, other)}"
         except (FormatError, ProgramError) as error:
             text, failed = str(error), failed + 1
         print(f"{number} of {len(made)}: {path}: {text}", flush=True)
