@@ -87,7 +87,7 @@ void ClosedDynamics::advance(const Rule& rule, double until, Observer& observer,
     const auto w = [scatterers](std::uint32_t at) -> double& { return scatterers[at]; };
     const Departure departure = scatter(flight, w, free_flight_);
     notify(observer, Collision{departure.time, flight.particle, cell, particle, departure.velocity,
-                               scale * scatterer, scale * scatterers[cell]});
+                               scale * scatterer, scale * scatterers[cell], departure.neighbour});
     notify_flight(observer, departure);
     cursor.reschedule<draws>(flight);
   };

@@ -25,6 +25,7 @@ struct Collision {
   std::uint32_t scatterer;                   // number of the cell, from 0
   double particle_before, particle_after;    // u of the particle
   double scatterer_before, scatterer_after;  // U of the scatterer
+  int neighbour = 0;  // 1: the rule changed the scatterer to the right, too; -1: to the left; 0: none
 };
 
 /// Observes nothing: for the relaxation.

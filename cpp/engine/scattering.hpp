@@ -20,6 +20,7 @@ struct Departure {
   double velocity;         // u, energy-normalised; with m = 1 the momentum
   std::int64_t cells;      // number of cells to the next scattering, with the sign of the velocity
   double duration;         // time to the next scattering; infinite for a particle at rest
+  int neighbour;           // 1: the collision changed the scatterer to the right, too; -1: to the left; 0: none
 };
 
 /// A collision and the flight that follows it, on a ring of cells. passing: whether a particle may pass a
@@ -42,12 +43,16 @@ class Scattering {
     double u = flight.velocity, scatterer = w(flight.target);
     [[maybe_unused]] const std::uint64_t draw = flight.draws;
     if constexpr (DrawingRule<Rule> || passing) ++flight.draws;
+    int side = 0;
     if constexpr (DrawingRule<Rule>) {
       RandomStream random = free_flight.of_collision(flight.particle, draw);
-      if constexpr (NeighbourRule<Rule>)
-        collide_(u, scatterer, w(neighbours_[flight.target][random.uniform() < 0.5]), flight.target, random);
-      else
+      if constexpr (NeighbourRule<Rule>) {
+        const bool left = random.uniform() < 0.5;
+        side = left ? -1 : 1;
+        collide_(u, scatterer, w(neighbours_[flight.target][left]), flight.target, random);
+      } else {
         collide_(u, scatterer, flight.target, random);
+      }
     } else {
       collide_(u, scatterer, flight.target);
     }
@@ -56,7 +61,7 @@ class Scattering {
     if constexpr (passing) cells = free_flight.cells(flight.particle, draw);
     flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
-    const Departure departure{flight.time, flight.particle, u, direction(u) * cells, duration};
+    const Departure departure{flight.time, flight.particle, u, direction(u) * cells, duration, side};
     flight.target = passing ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
     flight.time += duration;
     return departure;

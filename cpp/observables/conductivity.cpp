@@ -4,7 +4,8 @@
 ///   kappa = -J_U N / (T_N - T_1).
 ///
 /// The paper prints kappa = J_U/(T_N - T_1) for a chain of length 1; its exponents need the gradient per
-/// cell, hence the factor N. Currents are means over the two openings [eq. 26].
+/// cell, hence the factor N. Currents are means over the two openings [eq. 26]. kappa_heat is that of the heat
+/// J_U - T J_n alone, without the energy T that a particle carries on average [eq. 58].
 ///
 /// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 31], which at gamma
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
@@ -45,16 +46,22 @@ std::string reason_without_kappa(const OpenChain& chain) {
 
 double rise(TallyMeans mean) { return mean[tallies.temperature][1] - mean[tallies.temperature][0]; }
 
-/// -J_U times the number of cells over the rise of temperature; NaN unless the rise is at least five of its
+/// J_U - T J_n at the mean temperature of both ends.
+double heat_current(TallyMeans mean) {
+  const double temperature = 0.5 * (mean[tallies.temperature][0] + mean[tallies.temperature][1]);
+  return mean[tallies.energy_current] - temperature * mean[tallies.particle_current];
+}
+
+/// -J_U and -(J_U - T J_n) times the number of cells over the rise of temperature; NaN unless the rise is at least five of its
 /// standard errors, because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0
 /// with one replica.
-Group::Array current_per_rise(const Records& records, double cells, bool defined) {
+Group::Array conductivities(const Records& records, double cells, bool defined) {
   const Estimates found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
   const double error = records.size() > 1 ? found.standard_error.front() : 0;
   const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
   return [=](TallyMeans mean) {
-    return std::vector{resolved ? -mean[tallies.energy_current] / rise(mean) * cells
-                                : std::numeric_limits<double>::quiet_NaN()};
+    const double per_rise = resolved ? -cells / rise(mean) : std::numeric_limits<double>::quiet_NaN();
+    return std::vector{per_rise * mean[tallies.energy_current], per_rise * heat_current(mean)};
   };
 }
 
@@ -71,9 +78,11 @@ Group currents_and_conductivity(const OpenChain& chain) {
   };
   temperature("temperature_first", "<P^2>/M of the first scatterer", 0);
   temperature("temperature_last", "<P^2>/M of the last scatterer", 1);
-  group.quantities({{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1)"}},
+  const char* const units = "energy/(time temperature)";
+  group.quantities({{"kappa", units, "-J_U N / (T_N - T_1)"},
+                    {"kappa_heat", units, "-(J_U - T J_n) N / (T_N - T_1), T = (T_1 + T_N)/2"}},
                    [cells = chain.cells, defined = reason_without_kappa(chain).empty()](
-                       const Records& records) { return current_per_rise(records, cells, defined); });
+                       const Records& records) { return conductivities(records, cells, defined); });
   return group;
 }
 

@@ -60,7 +60,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, const std::ve
   const double interval = parameters.times.front(), cells = parameters.chain().cells;
   const std::size_t intervals = parameters.intervals(windows);
   const Blocks blocks(0, static_cast<double>(intervals) * interval, intervals);
-  HeatCurrent current(run, parameters.temperature, blocks);
+  HeatCurrent current(run, parameters.ring, parameters.temperature, blocks);
   run.observe(current);
   current.finish();
   const std::vector<double> heat = sums_of(current.integrals());

@@ -51,6 +51,9 @@ class TimeIntegral {
     since_ = until;
   }
 
+  /// Adds an amount at the time of the last call.
+  void add(double amount) { sum_ += amount; }
+
   /// Integrals over the completed blocks; 0 for the others.
   const std::vector<double>& sums() const { return sums_; }
 

@@ -43,3 +43,16 @@ def test_a_conductivity_that_is_not_defined(
     defined = result.provenance["target_quantity"] if remedy.startswith("--") else "temperature_last"
     assert defined in ("energy_current", "temperature_last")
     assert np.isfinite(result[defined].mean)
+
+
+def test_the_conductivity_of_heat_leaves_out_the_energy_that_particles_carry(
+    program: Program, tmp_path: Path
+) -> None:
+    """Each carries T on average, the mean temperature of both ends."""
+    program("conductivity", cells=4, replicas=32, observation_time=20)
+    result = load(tmp_path / "out.h5")
+    names = ("energy_current", "particle_current", "temperature_first", "temperature_last", "kappa", "kappa_heat")
+    energy, particles, first, last, kappa, heat = (float(result[name].mean) for name in names)
+    per_rise = 4 / (last - first)
+    np.testing.assert_allclose(heat, -(energy - (first + last) / 2 * particles) * per_rise, rtol=1e-12)
+    assert abs(heat) > 2 * abs(kappa)  # particles carry energy the other way

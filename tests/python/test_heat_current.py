@@ -46,6 +46,24 @@ def test_short_times_have_the_variance_of_the_current(heat_current: Measure) -> 
     assert np.abs(scores(result["heat_variance"], 4 * ZETA * T**3 * time**2)).min() > 10
 
 
+def test_short_times_with_rotations_have_the_variance_of_the_energy_that_they_carry(
+    heat_current: Measure,
+) -> None:
+    """Every collision, of which a scatterer has z sqrt(2πT) per unit time, carries an energy over one cell. All
+    three velocities are independent and Gaussian, before and after it. The neighbour's has the correlation ρ = a
+    + (1 - a) cos θ with itself, where a = M/(1 + 2M) is the square of its direction cosine with the conserved
+    momentum, so that the energy has the mean square T² (1 - mean of ρ²)."""
+    options = SHORT | {"times": "5e-4,1e-3", "fit_from": 5e-4, "observation_time": 1e-3}
+    result = heat_current(**options | {"cells": 100, "replicas": 40000}, rule="rotation", rotation_probability=1)
+    mass = (1 + 0.5) / (1 - 0.5)
+    a = mass / (1 + 2 * mass)
+    carried = T**2 * (1 - a**2 - (1 - a) ** 2 / 2)
+    time = result["heat_variance"].axes["time"]
+    expected = FUGACITY * np.sqrt(2 * np.pi * T) * LENGTH**2 * carried * time + 2 * ZETA * T**3 * time**2
+    assert (result["heat_variance"].error / expected).max() < 0.02
+    assert np.abs(scores(result["heat_variance"], expected)).max() < 4
+
+
 def of_walkers(time: float, scattered: float) -> float:
     """<Q²> per cell of independent walkers that every scatterer scatters with this probability, which
     draws the direction. The correlation of a velocity is u² times the probability that no scattering took

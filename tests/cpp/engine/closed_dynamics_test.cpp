@@ -57,6 +57,28 @@ TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
   }
 }
 
+// A rotation is reported with the side of the neighbour that it changed, on the ring, too.
+TEST(Simulate, ReportsTheNeighbourThatARuleChanges) {
+  const ClosedChain chain{.cells = 4, .particles_per_cell = 1, .cell_length = 1, .sigma = 0.5,
+                          .rule = {"rotation", {1}}};
+  int left = 0;
+  for (const std::uint32_t seed : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U})
+    for (const std::uint32_t cell : {0U, 3U}) {
+      const PhasePoint start{{{cell + 0.25, 1}, {0.1, 0}, {1.1, 0}, {2.1, 0}}, {0, 0, 0, 0}};
+      ClosedDynamics dynamics(chain, start, 1, {1, seed});
+      Recorder recorder;
+      simulate(dynamics, 0.3, recorder, nothing);
+      ASSERT_EQ(recorder.collisions.size(), 1U);
+      const int side = recorder.collisions.front().neighbour;
+      const std::vector<double> scatterers = dynamics.phase_point(0.3).scatterers;
+      EXPECT_NE(scatterers[(cell + 4 + side) % 4], 0) << seed;
+      EXPECT_EQ(scatterers[(cell + 4 - side) % 4], 0) << seed;
+      left += side < 0;
+    }
+  EXPECT_GT(left, 0);
+  EXPECT_LT(left, 16);
+}
+
 // A heartbeat may wait for the end of a revolution. More of them would make the threads of small chains wait
 // for each other. At gamma = 0 an open chain has injections only.
 TEST(Simulate, HeartbeatsComeEvery65536EventsAndMayStopTheRun) {

@@ -66,7 +66,7 @@ TEST(HeatCurrent, IsThatOfTheReferenceInEveryBlock) {
     const Blocks blocks(0, 0.9 * end_time, count);
     const Replica replica{{5, 2}, [](double) {}};
     ClosedRun run(parameters, replica);
-    HeatCurrent current(run, temperature, blocks);
+    HeatCurrent current(run, parameters.ring, temperature, blocks);
     run.observe(current);
     current.finish();
     const std::vector<double> flights = by_flights(parameters, blocks, replica.key, true);
@@ -74,6 +74,25 @@ TEST(HeatCurrent, IsThatOfTheReferenceInEveryBlock) {
     const std::vector<double> mutant = by_flights(parameters, blocks, replica.key, false);
     EXPECT_GT(largest_difference(current.integrals(), mutant), 1e-3) << sigma;
   }
+}
+
+// Energy that a collision gives to the scatterer to the right has moved by one cell to the right.
+TEST(HeatCurrent, CountsTheEnergyThatIsCarriedToANeighbour) {
+  ClosedParameters parameters;
+  parameters.ring = {.scattering = {.cells = 9, .sigma = 0.5}, .cell_length = 0.7};
+  parameters.fugacity = 2;
+  parameters.relaxation_time = 0;
+  const Replica replica{{5, 2}, [](double) {}};
+  const ClosedRun run(parameters, replica);
+  const auto heat = [&](int neighbour) {
+    HeatCurrent current(run, parameters.ring, temperature, Blocks(0, 1, 1));
+    const double u = 2, u_after = -1, U = 1, U_after = 0.5;  // an energy of 15/8 is carried
+    current.on_collision({0.25, 0, 3, u, u_after, U, U_after, neighbour});
+    current.finish();
+    return current.integrals().front();
+  };
+  EXPECT_NEAR(heat(1) - heat(0), 0.7 * 15 / 8, 1e-12);
+  EXPECT_NEAR(heat(-1) - heat(0), -0.7 * 15 / 8, 1e-12);
 }
 
 }  // namespace heat_current_test
