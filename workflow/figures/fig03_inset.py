@@ -17,7 +17,7 @@ from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, at_zero, deviations, reach
+from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, amplitudes, at_centre, deviations, reach
 from workflow.physics.paper import PAPER
 
 TITLE = "Deviation of finite chains from the kinetic equation"
@@ -25,36 +25,6 @@ UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "ce
 UNITS |= {"absolute_as_printed": "1/momentum"}
 
 LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
-
-
-def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
-    """One row per N: amplitude of the deviation, its largest value over the bins, and its error for
-    independent bins.
-
-    The deviation is projected on its mean-field shape in the shortest chain; the amplitude is the largest
-    value of this part. Unlike the largest of noisy bins it has no bias."""
-    mean_field = table[table.kind == MEAN_FIELD]
-    shape = mean_field[mean_field.cells == mean_field.cells.min()].deviation.to_numpy()
-    scale = np.abs(shape).max() / (shape @ shape)
-    rows = [
-        {
-            "cells": cells,
-            "amplitude": scale * float(shape @ part.deviation),
-            "error": scale * float(np.sqrt(np.sum((shape * part.error) ** 2))),
-        }
-        for cells, part in table[table.kind == kind].groupby("cells")
-    ]
-    return pd.DataFrame(rows)
-
-
-def at_centre(table: pd.DataFrame) -> pd.Series:
-    """Mean-field deviation at p = 0 by N: the larger one of the two halves, each extrapolated by a line
-    through its two innermost bins."""
-    centres = {}
-    for cells, part in table[table.kind == MEAN_FIELD].groupby("cells"):
-        inner = [part[np.sign(part.momentum) == side].sort_values("momentum", key=abs) for side in (-1, 1)]
-        centres[cells] = max(abs(at_zero(half.deviation.iloc[:2])) for half in inner)
-    return pd.Series(centres, name="centre").rename_axis("cells")
 
 
 def draw_end(axes: Axes, table: pd.DataFrame, sign: int, shown: float, title: str) -> None:
@@ -73,12 +43,10 @@ def draw_end(axes: Axes, table: pd.DataFrame, sign: int, shown: float, title: st
 def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     """Plots the amplitude of the deviation against N, with the paper's limits in either normalisation."""
     printed = (table.absolute_as_printed / table.deviation).median()
-    points, line = amplitudes(table), amplitudes(table, MEAN_FIELD)
+    points, line = amplitudes(table), at_centre(table)
     look = style.points("o", style.BLUE, label=SIMULATION)
     axes.errorbar(points.cells, points.amplitude, points.error, **look)
-    axes.plot(line.cells, line.amplitude, color=style.BLACK, label=MEAN_FIELD)
-    centre = at_centre(table)
-    axes.plot(centre.index, centre, color=style.BLACK, linestyle="dotted", label=f"{MEAN_FIELD}, $p = 0$")
+    axes.plot(line.index, line, color=style.BLACK, label=MEAN_FIELD)
     axes.set(xscale="log", yscale="log")
     axes.margins(y=0.25)  # room for the legend
     readings: list[tuple[float, str, style.Look]] = [

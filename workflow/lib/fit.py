@@ -45,11 +45,14 @@ def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike, dof: ArrayLike) -> P
     """Power law by a line through ln y against ln x, weighted with the standard errors of the points, which
     have dof degrees of freedom. Weights from such errors scatter: the error of the exponent includes this to
     first order in 1/dof (Kenward and Roger 1997), and the p-value is that of Welch's test (1951). With errors
-    taken as exact, those from 8 replicas would reject 4 to 7 % of true laws at the level of 1 %."""
+    taken as exact, those from 8 replicas would reject 4 to 7 % of true laws at the level of 1 %. Raises ValueError
+    unless two points have values and different x > 0."""
     # Imported here: most panels need no p-value, and the import takes a tenth of their time.
     from scipy.special import fdtrc  # noqa: PLC0415
 
     x, y, error, dof = _known(x, y, error, dof)
+    if not (np.all(x > 0) and np.all(y > 0) and len(set(x)) > 1):
+        raise ValueError(f"no power law through the points x = {x}, y = {y}")
     relative, uncertainty = error / y, 1 / np.maximum(dof, 1)
     design = np.stack([np.ones_like(x), np.log(x)], axis=1) / relative[:, None]
     covariance = np.linalg.inv(design.T @ design)

@@ -1,14 +1,16 @@
 """Results by panel, as claims look them up, and numbers taken from them."""
 
+import math
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
-from workflow.lib.fit import PowerLaw, fit_power, local_exponents
+from workflow.lib.fit import fit_power, local_exponents
 from workflow.lib.identity import panel_of
 from workflow.lib.load import Index, Result
-from workflow.study.verdict import Estimate, with_systematic
+from workflow.study.verdict import Estimate
 
 
 class MissingError(LookupError):
@@ -88,23 +90,36 @@ def combination(
     )
 
 
-def log_slope(first: Estimate, last: Estimate, factor: float) -> Estimate:
-    """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
-    values, errors = (first.value, last.value), (first.error, last.error)
-    _, slope, error = local_exponents((1, factor), values, errors)
-    return Estimate("", float(slope[0]), float(error[0]), first.dof)
+def exponent_between(first: Estimate, last: Estimate, factor: float, label: str) -> Estimate:
+    """Exponent of a power law through two independent numbers, at places whose ratio is `factor`. The errors of
+    two times of one run are correlated; the error is then too large."""
+    _, slope, error = local_exponents((1, factor), (first.value, last.value), (first.error, last.error))
+    return Estimate(label, float(slope[0]), float(error[0]), min(first.dof, last.dof))
 
 
-def power(size: Sequence[float], values: Sequence[Estimate], label: str) -> Estimate:
-    """Exponent of a power law through independent numbers; if they reject the law, the label states it.
-    The systematic error is the change of the exponent without the first number."""
-    points = np.array([(point.value, point.error, point.dof) for point in values])
-    law = fit_power(size, *points.T)
-    later = fit_power(size[1:], *points[1:].T).exponent if len(size) > 2 else law.exponent
-    exponent = Estimate(mean_slope(label, law), law.exponent, law.error, float(points[:, 2].min()))
-    return with_systematic(exponent, [later])
+def octaves(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
+    """Exponents between neighbouring sizes from `first` on, which a statement of a power law means: each has to
+    be in its band. So a law that bends by more than the band is contradicted however wide the range is, and one
+    that bends by less is not, however precise the numbers are; and a bend is no error of an exponent. Raises
+    MissingError if there are not two octaves. An octave of which an end is missing is unknown: fewer sizes decide
+    less."""
+    sizes = [first, *(size for size in sorted(values) if size > first)]
+    if sizes[-1] < 4 * first:
+        raise MissingError(f"no stationary sizes over two octaves, from {first} on")
+    unknown = Estimate("", math.nan, math.nan)
+    return [
+        exponent_between(
+            values.get(a, unknown) if b <= 2 * a else unknown, values[b], b / a, f"{label}, N = {a} to {b}"
+        )
+        for a, b in pairwise(sizes)
+    ]
 
 
-def mean_slope(label: str, law: PowerLaw) -> str:
-    """The label, which calls the exponent a mean slope if the points reject the power law."""
-    return f"{label}, a mean slope" if law.rejected else label
+def power(values: Mapping[int, Estimate], label: str) -> Estimate:
+    """Exponent of a power law fitted to independent numbers by size. Raises MissingError for fewer than two."""
+    if len(values) < 2:
+        raise MissingError("fewer than two stationary sizes")
+    points = np.array([(point.value, point.error, point.dof) for point in values.values()])
+    law = fit_power([*values], *points.T)
+    label = f"{label}, N = {min(values)} to {max(values)}"
+    return Estimate(label, law.exponent, law.error, float(points[:, 2].min()))

@@ -8,8 +8,8 @@ import pandas as pd
 from scipy.special import erf
 
 from workflow.lib.load import Quantity, Result
-from workflow.physics.fluxes import SIMULATION, at, at_zero, deviations
-from workflow.study.results import Results, by_size, combination, estimate, power, ratio
+from workflow.physics.fluxes import SIMULATION, amplitudes, at, at_zero, deviations
+from workflow.study.results import Results, by_size, combination, estimate, octaves, ratio
 from workflow.study.verdict import Estimate, with_systematic
 
 # Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
@@ -99,15 +99,14 @@ def _finite(data: Results) -> tuple[pd.DataFrame, float]:
 
 
 def deviations_over_bounds(data: Results) -> list[Estimate]:
-    """F_N - F of the outgoing particles over the printed bound, in every bin within REACH; bins beyond
-    contain too few particles."""
-    rows, degrees = _finite(data)
-    scale = float((rows.absolute_as_printed / rows.deviation).median())
+    """Largest |F_N - F| of the outgoing particles, that as p -> 0, over the printed bound, at every N."""
+    table, degrees = _finite(data)
+    scale = float((table.absolute_as_printed / table.deviation).median())
     numbers = []
-    for row in rows[(rows.kind == SIMULATION) & (rows.momentum.abs() < REACH)].itertuples():
+    for row in amplitudes(table).itertuples():
         bound = PRINTED.get(row.cells, OTHERWISE)
-        label = f"(F_N - F)/{100 * bound:g} %, N = {row.cells}, p = {row.momentum:g}"
-        numbers.append(Estimate(label, scale * row.deviation, scale * row.error, degrees) / bound)
+        label = f"largest |F_N - F|/{100 * bound:g} %, N = {row.cells}"
+        numbers.append(Estimate(label, scale * row.amplitude, scale * row.error, degrees) / bound)
     return numbers
 
 
@@ -148,11 +147,11 @@ def _mean_magnitude(left: Estimate, right: Estimate) -> Estimate:
 
 
 def tends_to_kinetic(data: Results) -> list[Estimate]:
-    """Exponent of F_N - F at p = 0, where it is largest, against N."""
+    """Exponents of F_N - F at p = 0, where it is largest, against N, by octave."""
     table, degrees = _finite(data)
     cells = [run.parameters["cells"] for run in by_size(data.results("fig03_inset", "simulation"))]
-    central = [_mean_magnitude(*_central(_of_size(table, size), degrees)) for size in cells]
-    return [power(cells, central, f"d ln|F_N - F|/d ln N at p = 0, N = {cells[0]} to {cells[-1]}")]
+    central = {size: _mean_magnitude(*_central(_of_size(table, size), degrees)) for size in cells}
+    return octaves(central, 2, "d ln|F_N - F|/d ln N at p = 0")
 
 
 def on_top_of_kinetic(data: Results) -> list[Estimate]:

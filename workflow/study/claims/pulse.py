@@ -4,18 +4,21 @@ Literal statements are judged from the paper's start, scatterers at rest that ha
 rings and pulses belong to the intended meaning.
 """
 
+import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from workflow.lib.load import Result
 from workflow.physics.pulse import resolved
-from workflow.study.claims.growth import of_largest
-from workflow.study.results import MissingError, Results, combination, estimate, log_slope
-from workflow.study.verdict import Estimate, with_systematic
+from workflow.study.claims.growth import FIRST, conductivities
+from workflow.study.results import MissingError, Results, combination, estimate, exponent_between, power
+from workflow.study.verdict import Estimate
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
 PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
+RESOLVED = 0.032  # time from which on the front spans the cells that the fit of its height needs
 LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
 
 
@@ -25,9 +28,7 @@ def peaks_leave(data: Results) -> list[Estimate]:
     each over its bound."""
     result = data.one("fig09a", PAPERS_START)
     share = estimate(result, "centre_share", -1, "fraction in the centre/0.1")
-    slowing = replace(_slowing(result), label="(d ln v/d ln t)/(1/4)")
-    odd = [part / ODD for part in _odd_parts(result)]
-    return [share / LEFT, *odd, slowing / SPEED]
+    return [share / LEFT, *(part / ODD for part in _odd_parts(result)), _slowing(result)]
 
 
 def _odd_parts(result: Result) -> list[Estimate]:
@@ -42,72 +43,103 @@ def _odd_parts(result: Result) -> list[Estimate]:
 
 
 def _slowing(result: Result) -> Estimate:
+    """d ln v/d ln t of the peaks between the first and the last pair of times, over its bound."""
     speed = result["peak_speed"]
     moving = np.flatnonzero(speed.mean > 0)
     if len(moving) < 2:
         raise MissingError("too few times with a moving peak")
     first, last = (estimate(result, "peak_speed", k) for k in moving[[0, -1]])
     time = speed.axes["middle"][moving]
-    return log_slope(first, last, time[-1] / time[0])
+    return exponent_between(first, last, time[-1] / time[0], "(d ln v/d ln t)/(1/4)") / SPEED
 
 
 def ballistic(data: Results) -> list[Estimate]:
-    """Exponent of the peak's position at gamma = 1 from the paper's start."""
-    return [_way(data.one("fig09b", PAPERS_START))]
+    """Exponent of the peak's position at gamma = 1 from the paper's start, minus that of free flight out of the
+    profile at the first time, attenuated by the scattering."""
+    result = data.one("fig09b", PAPERS_START)
+    times, first, last = result["peak_position"].axes["time"], *_ends(result)
+    factor = times[last] / times[first]
+    way = exponent_between(*(estimate(result, "peak_position", k) for k in (first, last)), factor, "")
+    free = math.log(free_flight(result, first, factor) / free_flight(result, first, 1)) / math.log(factor)
+    return [replace(way - free, label="d ln x_p/d ln t minus that of attenuated free flight")]
+
+
+def _ends(result: Result) -> tuple[int, int]:
+    """Indices of the first and the last time with a moving peak. Raises MissingError if these are one."""
+    known = resolved(result["peak_position"].mean)
+    if len(known) < 2:
+        raise MissingError("too few times with a moving peak")
+    return int(known[0]), int(known[-1])
+
+
+def free_flight(result: Result, k: int, factor: float) -> float:
+    """Position of the peak, in cells, `factor` times later than at time k: the maximum of E(y) exp(-y (factor - 1)
+    gamma/N) at y = x/factor, with the energy E(y) at time k and mean free path N/gamma. E is exp(cubic) above half of
+    its height, as in the program's fit."""
+    profile = result["energy_difference"].mean[k]
+    cells = len(profile)
+    right = profile[cells // 2 :]
+    left = profile[cells // 2 :: -1]
+    folded = (right[: len(left)] + left) / 2
+    peak = round(float(result["peak_position"].mean[k]))
+    above = folded > folded[peak] / 2
+    low = peak - int(np.argmin(above[peak::-1])) + 1
+    high = peak + int(np.argmin(above[peak:]))
+    cubic = np.polynomial.Polynomial.fit(np.arange(low, high), np.log(folded[low:high]), 3)
+    y = np.linspace(low, high - 1, 10001)
+    per_cell = float(result.parameters["gamma"]) / int(result.parameters["cells"])
+    return factor * float(y[np.argmax(cubic(y) - y * (factor - 1) * per_cell)])
 
 
 def ballistic_later(data: Results) -> list[Estimate]:
-    """The same in a ring ten times as long at later times, where the width of the cell in which the pulse
-    begins no longer counts."""
+    """Exponents of the position in a ring ten times as long at later times, between neighbouring times."""
     ring = data.one("fig10b", "long")
-    return [_way(ring)]
-
-
-def _way(result: Result) -> Estimate:
-    """Exponent of the position between the first and the last time with a moving peak. The exponents
-    without the first or without the last of them bound the systematic error."""
-    known = resolved(result["peak_position"].mean)
-    if len(known) < 3:
-        raise MissingError("too few times with a moving peak")
-    times = result["peak_position"].axes["time"]
-
-    def between(first: int, last: int) -> Estimate:
-        early, late = (estimate(result, "peak_position", k) for k in (first, last))
-        return log_slope(early, late, times[last] / times[first])
-
-    slope, *others = (between(*known[list(ends)]) for ends in ((0, -1), (1, -1), (0, -2)))
-    label = f"d ln x_p/d ln t, N = {result.parameters['cells']}"
-    return with_systematic(replace(slope, label=label), [other.value for other in others])
+    _ends(ring)
+    known = resolved(ring["peak_position"].mean)
+    times = ring["peak_position"].axes["time"]
+    return [
+        exponent_between(
+            *(estimate(ring, "peak_position", k) for k in (a, b)), times[b] / times[a], f"d ln x_p/d ln t, t = {times[a]:g} to {times[b]:g}"
+        )
+        for a, b in pairwise(known)
+    ]  # fmt: skip
 
 
 def damping(data: Results) -> list[Estimate]:
-    """Damping exponent of the paper's pulse at gamma = N, fitted to all times. Fits that begin later and
-    the bias of the fits of the peak's height bound the systematic error."""
-    fit = _of_all_times(data.one("fig09a", PAPERS_START), "damping exponent")
-    return [replace(fit, systematic=fit.systematic + PEAK_BIAS)]
+    """Damping exponents of the paper's pulse at gamma = N, by octave. The bias of the fits of the peak's height
+    bounds the systematic error."""
+    octaves = _by_octave(data.one("fig09a", PAPERS_START))
+    return [replace(octave, systematic=PEAK_BIAS) for octave in octaves]
+
+
+def damping_fits(data: Results) -> list[Estimate]:
+    """Damping exponent of the paper's pulse at gamma = N, fitted from RESOLVED on."""
+    fits = data.one("fig09a", PAPERS_START)["damping_exponent_from"]
+    found = np.flatnonzero(np.isclose(fits.axes["from"], RESOLVED))
+    if not len(found):
+        raise MissingError(f"no fit from t = {RESOLVED} on")
+    label = f"fit from t = {RESOLVED} on"
+    return [estimate(data.one("fig09a", PAPERS_START), "damping_exponent_from", int(found[0]), label)]
 
 
 def damping_rare(data: Results) -> list[Estimate]:
-    """Damping exponent at gamma = 1 from the paper's start."""
-    return [_of_all_times(data.one("fig09b", PAPERS_START), "damping exponent")]
+    """Damping exponents at gamma = 1 from the paper's start, by octave."""
+    return _by_octave(data.one("fig09b", PAPERS_START))
 
 
-def _of_all_times(result: Result, label: str) -> Estimate:
-    """Damping exponent over all times. Fits that leave out up to half of the times bound the systematic
-    error."""
-    later = [float(slope) for slope in result["damping_exponent_from"].mean]
-    slope = estimate(result, "damping_exponent", label=label)
-    return with_systematic(slope, later[1 : len(later) // 2 + 1])
+def _by_octave(result: Result) -> list[Estimate]:
+    """Damping exponents of a pulse. NaN, so unknown, if the peak is not resolved in most of the octave."""
+    until = result["local_damping_exponent"].axes["until"]
+    return [
+        estimate(result, "local_damping_exponent", k, f"damping exponent, until t = {time:g}")
+        for k, time in enumerate(until)
+    ]
 
 
 def relation_of_moving_peaks(data: Results) -> list[Estimate]:
-    """2 - 1/xi minus the exponent of kappa over the largest sizes, with xi of the pulse's moving peaks,
-    for both gamma."""
-    excesses = []
-    for panel, gamma in (("fig09a", "N"), ("fig09b", 1)):
-        xi = _of_all_times(data.one(panel, PAPERS_START), "")
-        slope = xi.value**-2
-        expected = Estimate("", 2 - 1 / xi.value, slope * xi.error, xi.dof, slope * xi.systematic)
-        label = f"2 - 1/ξ minus exponent of κ, γ = {gamma}"
-        excesses.append(combination([expected, of_largest(data, gamma)], [1, -1], label))
-    return excesses
+    """2 - 1/xi, with xi of the pulse's moving peaks, minus the exponent of kappa, at gamma = 1."""
+    xi = estimate(data.one("fig09b", PAPERS_START), "damping_exponent")
+    expected = Estimate("", 2 - 1 / xi.value, xi.error / xi.value**2, xi.dof)
+    kappa = {size: value for size, value in conductivities(data, 1).items() if size >= FIRST}
+    exponent = power(kappa, "d ln κ/d ln N, γ = 1")
+    return [combination([expected, exponent], [1, -1], f"2 - 1/ξ minus {exponent.label}")]
