@@ -74,6 +74,8 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     """Coordinates along every axis that a quantity of the run may have."""
     cells = run.options["cells"] if isinstance(run.options["cells"], int) else 10
     times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
+    if "decades" in run.options:
+        times = run.options["observation-time"] * np.geomspace(1e-3, 1, 10)
     bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
     positions = run.options.get("positions")
     return {

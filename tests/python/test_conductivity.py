@@ -51,7 +51,14 @@ def test_the_conductivity_of_heat_leaves_out_the_energy_that_particles_carry(
     """Each carries T on average, the mean temperature of both ends."""
     program("conductivity", cells=4, replicas=32, observation_time=20)
     result = load(tmp_path / "out.h5")
-    names = ("energy_current", "particle_current", "temperature_first", "temperature_last", "kappa", "kappa_heat")
+    names = (
+        "energy_current",
+        "particle_current",
+        "temperature_first",
+        "temperature_last",
+        "kappa",
+        "kappa_heat",
+    )
     energy, particles, first, last, kappa, heat = (float(result[name].mean) for name in names)
     per_rise = 4 / (last - first)
     np.testing.assert_allclose(heat, -(energy - (first + last) / 2 * particles) * per_rise, rtol=1e-12)

@@ -54,7 +54,9 @@ def test_short_times_with_rotations_have_the_variance_of_the_energy_that_they_ca
     + (1 - a) cos θ with itself, where a = M/(1 + 2M) is the square of its direction cosine with the conserved
     momentum, so that the energy has the mean square T² (1 - mean of ρ²)."""
     options = SHORT | {"times": "5e-4,1e-3", "fit_from": 5e-4, "observation_time": 1e-3}
-    result = heat_current(**options | {"cells": 100, "replicas": 40000}, rule="rotation", rotation_probability=1)
+    result = heat_current(
+        **options | {"cells": 100, "replicas": 40000}, rule="rotation", rotation_probability=1
+    )
     mass = (1 + 0.5) / (1 - 0.5)
     a = mass / (1 + 2 * mass)
     carried = T**2 * (1 - a**2 - (1 - a) ** 2 / 2)

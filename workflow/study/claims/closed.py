@@ -81,9 +81,8 @@ def _waiting(data: Results, sigma: float) -> Estimate:
 def spreading_half(data: Results) -> list[Estimate]:
     """Exponents of <x²> at sigma = 1/2 over the parts of the last decade between neighbouring times."""
     result, *_ = data.results("fig07", "all", sigma=0.5)
-    slopes = result["local_slope"]
-    times = slopes.axes["time"]
-    late = np.flatnonzero(times > result["variance"].axes["time"][-1] / 10)
+    times, last = result["local_slope"].axes["time"], result.parameters["observation_time"]
+    late = np.flatnonzero(times > last / 10 ** result.parameters["fit_decades"])
     return [estimate(result, "local_slope", k, f"d ln ⟨x²⟩/d ln t, t = {times[k]:.0f}") for k in late]
 
 
