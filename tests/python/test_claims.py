@@ -9,13 +9,13 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
-from workflow.lib.load import FormatError
+from workflow.lib.load import FormatError, Result, load
 from workflow.pipeline.compare import error_of_difference
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
-from workflow.study.results import MissingError, combination, estimate, ratio
-from workflow.study.verdict import Estimate, Outcome
+from workflow.study.results import MissingError, Results, combination, estimate, octaves, ratio
+from workflow.study.verdict import Band, Estimate, Outcome, Verdict, level_of_each
 
 ROWS = judge.read_claims(ROOT)
 
@@ -61,14 +61,69 @@ def of_sizes(kappa: Callable[[int], float], still: Callable[[int], bool] = lambd
     return Known({"fig08": truth(given, 0.01)})
 
 
-def test_an_exponent_takes_two_stationary_sizes_one_of_which_is_large() -> None:
-    for sizes in ((128,), (32, 64)):
-        with pytest.raises(MissingError, match="stationary size"):
+def test_a_power_law_needs_two_octaves() -> None:
+    """An octave without one of its ends is unknown."""
+    for sizes in ((64,), (32, 64), (8, 16, 32)):
+        with pytest.raises(MissingError, match="two octaves"):
             growth.linear(of_sizes(float, sizes.__contains__))
-    (number,) = growth.linear(of_sizes(float, (64, 128).__contains__))
-    assert number.value == pytest.approx(1)
-    with pytest.raises(MissingError, match="no stationary size of 128"):
-        growth.cube_root(of_sizes(float, (8, 16).__contains__))
+    exponents = [one.value for one in growth.linear(of_sizes(float, (64, 128, 512).__contains__))]
+    np.testing.assert_allclose(exponents, [np.nan, 1, np.nan], rtol=1e-12)
+
+
+def verdict_of(numbers: list[Estimate], band: str) -> Outcome:
+    return Verdict(Band.parse(band), tuple(numbers), 0.05 / 42).outcome
+
+
+@pytest.mark.parametrize(
+    ("law", "error", "outcome"),
+    [
+        (lambda n: n ** (1 / 3), 0.003, Outcome.REPRODUCED),
+        (lambda n: n ** (1 / 3), 0.03, Outcome.UNDECIDED),
+        # The tangent at N = 256 has the exponent 1/3: a fit of all sizes would find it.
+        (lambda n: n ** (1 / 3) * np.exp(-0.1 * np.log(n / 256) ** 2), 0.003, Outcome.CONTRADICTED),
+        # A bend within the band, however precise.
+        (lambda n: n ** (1 / 3) * np.exp(-0.005 * np.log(n / 256) ** 2), 1e-5, Outcome.REPRODUCED),
+        (lambda n: n ** (1 / 2), 0.003, Outcome.CONTRADICTED),
+    ],
+)
+def test_which_data_decide_a_power_law(law: Callable, error: float, outcome: Outcome) -> None:
+    """Fewer sizes do not decide more: what is undecided stays so without any of them, and what is decided does not
+    turn into the contrary."""
+    sizes = [2**k for k in range(5, 12)]
+    values = {n: Estimate("", law(n), error * law(n)) for n in sizes}
+    assert verdict_of(octaves(values, 32, ""), "0.283 to 0.383") is outcome
+    for removed in sizes:
+        rest = {n: value for n, value in values.items() if n != removed}
+        assert verdict_of(octaves(rest, 32, ""), "0.283 to 0.383") in (outcome, Outcome.UNDECIDED)
+
+
+def test_no_result_of_the_release_is_needed_for_a_report_and_fewer_decide_no_more() -> None:
+    """Of the results of the release, each of those that a row depends on is removed in turn."""
+    loaded = [load(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+    level = level_of_each(len(ROWS))
+    whole = Recording(loaded)
+    for row in ROWS:
+        whole.used.clear()
+        outcome = judge.judge(row, whole, level).verdict.outcome
+        for path in sorted(whole.used):
+            rest = Results(result for result in loaded if result.path != path)
+            assert judge.judge(row, rest, level).verdict.outcome in (outcome, Outcome.UNDECIDED), (
+                row["numbers"],
+                path,
+            )
+
+
+class Recording(Results):
+    """Results that note which of them are looked up."""
+
+    def __init__(self, results: list[Result]) -> None:
+        super().__init__(results)
+        self.used: set[Path] = set()
+
+    def of_panel(self, panel: str) -> list[Result]:
+        found = super().of_panel(panel)
+        self.used |= {result.path for result in found}
+        return found
 
 
 def test_errors_of_ratios_and_sums() -> None:

@@ -38,34 +38,45 @@ def test_fig03() -> None:
 
 
 def test_fig03_inset() -> None:
-    """F_N - F is 0.2/N times a shape with the maximum 1, in units of max F = 10; mean field 0.3/N."""
+    """F_N - F is 0.2/N times a shape with the maximum 1.25 as p -> 0, in units of max F = 10; mean field 0.3/N, in
+    bins of half the width."""
     p = np.array([-3.0, -1, 1, 3])
-    shape, exact = np.array([0.25, 0.5, 1, 0.5]), np.array([6.0, 10, 10, 6])
-    where = {"momentum": p}
+    fine = np.arange(-3.5, 4)
 
-    def flux(height: float, cells: int) -> Law:
-        bonds = np.arange(cells + 1.0)
-        return np.tile(exact + 10 * height * shape, (cells + 1, 1)), {"bond": bonds} | where
+    def shape(p: np.ndarray) -> np.ndarray:
+        return np.where(p < 0, 0.625 + 0.125 * p, 1.25 - 0.25 * p)
 
-    limit = np.tile(exact, (2, 1)), {"x": [0, 1]} | where
+    def exact(p: np.ndarray) -> np.ndarray:
+        return np.where(abs(p) < 2, 10.0, 6.0)
+
+    def flux(height: float, p: np.ndarray, cells: int) -> Law:
+        axes = {"bond": np.arange(cells + 1.0), "momentum": p}
+        return np.tile(exact(p) + 10 * height * shape(p), (cells + 1, 1)), axes
+
+    limit = np.tile(exact(fine), (2, 1)), {"x": [0, 1], "momentum": fine}
     runs = [result("continuum", CHAIN | {"cells": "continuum"}, "boltzmann", flux=limit)]
     for cells in (2, 4):
-        for kind, program, factor in (("mean-field", "boltzmann", 0.3), ("simulation", "momentum_flux", 0.2)):
-            chain = CHAIN | {"cells": cells}
-            runs.append(result(f"{kind}_cells={cells}", chain, program, flux=flux(factor / cells, cells)))
+        chain = CHAIN | {"cells": cells}
+        runs.append(
+            result(f"mean-field_cells={cells}", chain, "boltzmann", flux=flux(0.3 / cells, fine, cells))
+        )
+        runs.append(
+            result(f"simulation_cells={cells}", chain, "momentum_flux", flux=flux(0.2 / cells, p, cells))
+        )
     axes, table, _ = draw("fig03_inset", runs)
     left, right, decay = axes[:3]
     outgoing = {cells: np.where(p < 0, (error := run["flux"].error)[0], error[-1]) / 10
                 for cells, run in ((2, runs[2]), (4, runs[4]))}  # fmt: skip
-    for panel, half in ((left, p < 0), (right, p > 0)):
-        assert_points(panel, *((p[half], 200 * shape[half] / n, 1e3 * outgoing[n][half]) for n in (2, 4)))
+    for panel, side in ((left, -1), (right, 1)):
+        half, narrow = p[p * side > 0], fine[fine * side > 0]
+        errors = {n: 1e3 * outgoing[n][p * side > 0] for n in (2, 4)}
+        assert_points(panel, *((half, 200 * shape(half) / n, errors[n]) for n in (2, 4)))
         for n in (2, 4):
-            assert_line(panel, p[half], 300 * shape[half] / n)
-    scale = 1 / (shape @ shape)
-    amplitude = [scale * np.sqrt(np.sum((shape * outgoing[n]) ** 2)) for n in (2, 4)]
-    assert_points(decay, ([2, 4], [0.1, 0.05], amplitude))
-    assert_line(decay, [2, 4], [0.15, 0.075])
-    assert_line(decay, [2, 4], [0.3 / 2 * (1.5 - 0.25), 0.3 / 4 * (1.5 - 0.25)])  # extrapolated to p = 0
+            assert_line(panel, narrow, 300 * shape(narrow) / n)
+    scale = 1.25 / (shape(p) @ shape(p))
+    amplitude = [scale * np.sqrt(np.sum((shape(p) * outgoing[n]) ** 2)) for n in (2, 4)]
+    assert_points(decay, ([2, 4], [0.125, 0.0625], amplitude))
+    assert_line(decay, [2, 4], [0.3 / 2 * 1.25, 0.3 / 4 * 1.25])
     np.testing.assert_allclose(table.absolute_as_printed, table.deviation * 10 / 400)
     assert {*table[table.kind == MEAN_FIELD].error} == {0}
 

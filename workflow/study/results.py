@@ -106,13 +106,13 @@ def octaves(values: Mapping[int, Estimate], first: int, label: str) -> list[Esti
     sizes = [first, *(size for size in sorted(values) if size > first)]
     if sizes[-1] < 4 * first:
         raise MissingError(f"no stationary sizes over two octaves, from {first} on")
-    unknown = Estimate("", math.nan, math.nan)
-    return [
-        exponent_between(
-            values.get(a, unknown) if b <= 2 * a else unknown, values[b], b / a, f"{label}, N = {a} to {b}"
-        )
-        for a, b in pairwise(sizes)
-    ]
+    numbers = []
+    for a, b in pairwise(sizes):
+        name = f"{label}, N = {a} to {b}"
+        known = a in values and b <= 2 * a
+        exponent = exponent_between(values[a], values[b], b / a, name) if known else None
+        numbers.append(exponent or Estimate(name, math.nan, math.nan))
+    return numbers
 
 
 def power(values: Mapping[int, Estimate], label: str) -> Estimate:

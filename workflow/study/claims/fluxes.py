@@ -94,7 +94,8 @@ def _magnitude(number: Estimate) -> Estimate:
 def _finite(data: Results) -> tuple[pd.DataFrame, float]:
     """Deviations of finite chains from the kinetic equation, and the degrees of freedom of their errors."""
     simulated = data.results("fig03_inset", "simulation")
-    table = deviations(simulated + data.results("fig03_inset", "continuum", "mean-field"))
+    continuum, mean_field = data.one("fig03_inset", "continuum"), data.results("fig03_inset", "mean-field")
+    table = deviations([*simulated, continuum, *mean_field])
     return table, min(run["flux"].dof.min() for run in simulated)
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import minimize_scalar
 
 from workflow.lib.load import Result
 from workflow.physics.pulse import resolved
@@ -57,19 +58,27 @@ def ballistic(data: Results) -> list[Estimate]:
     """Exponent of the peak's position at gamma = 1 from the paper's start, minus that of free flight out of the
     profile at the first time, attenuated by the scattering."""
     result = data.one("fig09b", PAPERS_START)
-    times, first, last = result["peak_position"].axes["time"], *_ends(result)
-    factor = times[last] / times[first]
-    way = exponent_between(*(estimate(result, "peak_position", k) for k in (first, last)), factor, "")
-    free = math.log(free_flight(result, first, factor) / free_flight(result, first, 1)) / math.log(factor)
-    return [replace(way - free, label="d ln x_p/d ln t minus that of attenuated free flight")]
+    known = _times(result)
+    way = _way(result, known[0], known[-1], "d ln x_p/d ln t minus that of attenuated free flight")
+    times = result["peak_position"].axes["time"]
+    factor = float(times[known[-1]] / times[known[0]])
+    ratio_of_free = free_flight(result, known[0], factor) / free_flight(result, known[0], 1)
+    return [way - math.log(ratio_of_free) / math.log(factor)]
 
 
-def _ends(result: Result) -> tuple[int, int]:
-    """Indices of the first and the last time with a moving peak. Raises MissingError if these are one."""
-    known = resolved(result["peak_position"].mean)
+def _times(result: Result) -> list[int]:
+    """Indices of the times with a moving peak. Raises MissingError if there are fewer than two."""
+    known = [*map(int, resolved(result["peak_position"].mean))]
     if len(known) < 2:
         raise MissingError("too few times with a moving peak")
-    return int(known[0]), int(known[-1])
+    return known
+
+
+def _way(result: Result, a: int, b: int, label: str) -> Estimate:
+    """Exponent of the peak's position between two times."""
+    times = result["peak_position"].axes["time"]
+    first, last = (estimate(result, "peak_position", k) for k in (a, b))
+    return exponent_between(first, last, float(times[b] / times[a]), label)
 
 
 def free_flight(result: Result, k: int, factor: float) -> float:
@@ -77,32 +86,28 @@ def free_flight(result: Result, k: int, factor: float) -> float:
     gamma/N) at y = x/factor, with the energy E(y) at time k and mean free path N/gamma. E is exp(cubic) above half of
     its height, as in the program's fit."""
     profile = result["energy_difference"].mean[k]
-    cells = len(profile)
-    right = profile[cells // 2 :]
-    left = profile[cells // 2 :: -1]
+    centre = len(profile) // 2
+    right, left = profile[centre:], profile[centre::-1]
     folded = (right[: len(left)] + left) / 2
     peak = round(float(result["peak_position"].mean[k]))
     above = folded > folded[peak] / 2
-    low = peak - int(np.argmin(above[peak::-1])) + 1
-    high = peak + int(np.argmin(above[peak:]))
+    low, high = peak - int(np.argmin(above[peak::-1])) + 1, peak + int(np.argmin(above[peak:]))
     cubic = np.polynomial.Polynomial.fit(np.arange(low, high), np.log(folded[low:high]), 3)
-    y = np.linspace(low, high - 1, 10001)
-    per_cell = float(result.parameters["gamma"]) / int(result.parameters["cells"])
-    return factor * float(y[np.argmax(cubic(y) - y * (factor - 1) * per_cell)])
+    lost = (factor - 1) * float(result.parameters["gamma"]) / int(result.parameters["cells"])
+    highest = minimize_scalar(
+        lambda y: lost * y - cubic(y), bounds=(low, high - 1), method="bounded", options={"xatol": 1e-9}
+    )
+    return factor * float(highest.x)
 
 
 def ballistic_later(data: Results) -> list[Estimate]:
     """Exponents of the position in a ring ten times as long at later times, between neighbouring times."""
     ring = data.one("fig10b", "long")
-    _ends(ring)
-    known = resolved(ring["peak_position"].mean)
     times = ring["peak_position"].axes["time"]
     return [
-        exponent_between(
-            *(estimate(ring, "peak_position", k) for k in (a, b)), times[b] / times[a], f"d ln x_p/d ln t, t = {times[a]:g} to {times[b]:g}"
-        )
-        for a, b in pairwise(known)
-    ]  # fmt: skip
+        _way(ring, a, b, f"d ln x_p/d ln t, t = {times[a]:g} to {times[b]:g}")
+        for a, b in pairwise(_times(ring))
+    ]
 
 
 def damping(data: Results) -> list[Estimate]:
