@@ -16,7 +16,7 @@ DEV := .venv/bin
 help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper  PANEL=fig05  SEED=7  REPLICAS=200  ERROR=0.005  JOBS=2  DRY=yes'
-	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
+	echo 'On a cluster (docs/machines.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
 figures:  ## Build, simulate and render the paper's figures: figures/QUALITY/*.pdf, .png, .svg, .csv
 panel:  ## One panel, PANEL=fig05
 report:  ## The paper's claims against the results: figures/QUALITY/report.html
