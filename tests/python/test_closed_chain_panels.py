@@ -66,24 +66,36 @@ def test_fig06() -> None:
 
 
 def test_fig07() -> None:
+    """The drift is 0.3 t², and 0.05 t² in a longer ring."""
     time = np.geomspace(0.1, 100, 4)
+    laws = (
+        ("all", 11, False, 1.8, 4.0),
+        ("large", 99, False, 1.5, 6.0),
+        ("zero-momentum", 11, True, 1.1, 5.0),
+    )
     runs = [
-        result(run, RING | {"zero_total_momentum": zero, "fit_decades": 1.0}, variance=(factor * time**power, {"time": time}),
-               centre_of_mass_variance=(0.3 * time**2, {"time": time}), local_slope=(np.full(3, power), {"time": time[1:]}), alpha=power)
-        for run, zero, power, factor in (("all", False, 1.8, 4.0), ("zero-momentum", True, 1.1, 5.0))
+        result(run, RING | {"cells": cells, "zero_total_momentum": zero, "fit_decades": 1.0}, variance=(factor * time**power, {"time": time}),
+               centre_of_mass_variance=((0.3 if cells == 11 else 0.05) * time**2, {"time": time}),
+               local_slope=(np.full(3, power), {"time": time[1:]}), alpha=power)
+        for run, cells, zero, power, factor in laws
     ]  # fmt: skip
-    (above, below), table, caption = draw("fig07", runs)
+    (above, below), table, caption = draw("fig07", [runs[2], *runs[:2]])
     assert_points(above, *((time, *both(run["variance"])) for run in runs))
     assert_points(below, *((np.sqrt(time[1:] * time[:-1]), *both(run["local_slope"])) for run in runs))
-    assert_line(above, time, 0.3 * time**2)
-    random = table[~table.zero_total_momentum]
+    for factor in (0.3, 0.05):
+        assert_line(above, time, factor * time**2)
+    random = table[~table.zero_total_momentum & (table.cells == 11)]
     np.testing.assert_allclose(random.fraction, 0.3 * time**2 / (4 * time**1.8))
     relative = [
         error / mean
         for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
-    assert "is 1.800(18), and 1.100(11) with zero total momentum" in caption
+    assert "is 1.800(18) in the shaded window, and 1.100(11) at zero total momentum" in caption
+    ends = [
+        errors[-1] / means[-1] for means, errors in (both(run["centre_of_mass_variance"]) for run in runs[:2])
+    ]
+    assert f"6.000({1000 * 6 * np.hypot(*ends):.0f}) times less at N = 99" in caption
 
 
 def test_fig07_inset() -> None:
@@ -158,7 +170,7 @@ def test_fig10() -> None:
     np.testing.assert_allclose(rest.octave_exponent.dropna(), [0.6, 0.6])
     np.testing.assert_allclose(rest.exponent_from_here.dropna(), [0.7, 0.71])
     np.testing.assert_allclose(rest.speed_to_next.dropna(), [300, 303])
-    assert "from rest goes from 0.6000(60) to 0.6000(66)" in caption
+    assert "from rest, is 0.6000(60) and 0.6000(66)" in caption
 
 
 def test_fig10_plots_an_octave_at_the_middle_of_its_known_heights() -> None:
@@ -171,7 +183,7 @@ def test_fig10_plots_an_octave_at_the_middle_of_its_known_heights() -> None:
     octaves = table.dropna(subset="octave_exponent").set_index("time")
     np.testing.assert_allclose(octaves.octave_middle, [2**0.5, 8**0.5, (4 * 5.6) ** 0.5])
     assert octaves.octave_exponent[5.6] == 0.64
-    assert "goes from 0.6000(61) to 0.6400(74)" in caption
+    assert "is 0.6000(61), 0.6000(67) and 0.6400(74)" in caption
 
 
 def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:
@@ -183,6 +195,6 @@ def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:
     late["peak"].mean[2] = late["local_damping_exponent"].mean[1] = np.nan
     assert [*fig10.by_octave(late).until] == [0.02, 0.04]
     single["local_damping_exponent"].error[...] = np.nan
-    assert fig10.exponents(single) == "goes from 0.6(?) to 0.4(?)"
+    assert fig10.exponents(single) == "is 0.6(?) and 0.4(?)"
     table = pd.DataFrame({"sigma": [-0.5, 0, 0.2, 0.5], "alpha": [1.1, 1.9, np.nan, 1.2], "alpha_error": 0.1})
     assert [fig07_inset.extreme(table, row) for row in (0, -1)] == ["1.10(10)", "1.20(10)"]

@@ -6,12 +6,9 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from tests.python.known_results import Known, truth
 from workflow.figures import fig01_inset, fig06, fig09
 from workflow.lib.load import Quantity, Result
 from workflow.physics.closed import quasi_stationary
-from workflow.pipeline.plan import Run
-from workflow.study import momentum
 
 
 def test_slopes_of_a_logarithm_are_its_factor() -> None:
@@ -34,29 +31,6 @@ def test_quasi_stationary_estimate_conserves_energy(particles: int) -> None:
     np.testing.assert_allclose(temperature[-1], particles * 500, rtol=particles / 80)  # the energy saturates
     expected = np.log(time[1] * np.sqrt(2 * temperature[1])) - np.euler_gamma / 2 + 1  # eq. 13 at late times
     np.testing.assert_allclose(slow[1], expected, rtol=1e-6)
-
-
-def test_growth_is_relative_to_the_smallest_size_of_all_chains() -> None:
-    """κ = AN^a with other A and a in every curve; 16 is their smallest common size."""
-
-    def kappa(run: Run) -> float:
-        o = run.options
-        rotation, reversal = (o.get(f"{name}-probability", 0) for name in ("rotation", "reversal"))
-        return float((1 + rotation + 10 * reversal) * o["cells"] ** (0.3 - reversal - 0.1 * rotation))
-
-    data = Known({"momentum": truth({"kappa": kappa, "stationary": 1}, 0.01)})
-    table = momentum.tabulate(data.results("momentum", "chain-elastic", "chain-rotation", "chain-reversal"))
-    np.testing.assert_allclose(
-        table.growth,
-        (table.cells / 16)
-        ** (0.3 - table.epsilon * table.rule.map({"elastic": 0, "rotation": 0.1, "reversal": 1})),
-    )
-    np.testing.assert_allclose(
-        table.growth_error / table.growth, np.where(table.cells == 16, 0, 0.01 * 2**0.5)
-    )
-    broken = table[table.rule == "reversal"]
-    assert [*broken.cells] == [8, 16, 32, 64, 128, 256]
-    assert {*table.epsilon[table.rule == "rotation"]} == {0.1, 1}
 
 
 def test_the_speed_of_sound_before_the_pulse() -> None:

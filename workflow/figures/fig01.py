@@ -1,7 +1,6 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
-Where the chain is stationary above the front, curves of all times coincide, and those of some times are
-plotted. The table has all.
+Where the chain is stationary above the front, the curves of all times coincide.
 
 Shown for several distances between scatterers, as the paper states none. Below, the same on logarithmic bins,
 with the fronts p_0(t), and the fronts over lambda/et, where a stationary flux has them.
@@ -16,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, parameters
+from workflow.lib.caption import BATHS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
@@ -25,7 +24,6 @@ from workflow.physics.paper import PAPER
 TITLE = "Momentum distribution of the particles in a filling chain"
 UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
 
-SURE = 3  # standard errors above which heights at two times differ
 FRONT = style.points("o", style.BLACK, "white")
 
 
@@ -46,17 +44,10 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def stationary(result: Result) -> bool:
-    """Whether the heights above the front at the first and at the last time agree."""
-    height = result["plateau"]
-    change = height.mean[-1] - height.mean[0]
-    return bool(abs(change) < SURE * np.hypot(height.error[0], height.error[-1]))
-
-
-def plot_times(axes: Axes, table: pd.DataFrame, shown: Sequence[float]) -> None:
-    """One curve with its error band for each of the times `shown`, in a colour that depends on the time."""
+def plot_times(axes: Axes, table: pd.DataFrame) -> None:
+    """One curve with its error band for each time, in a colour that depends on the time."""
     looks = zip(table.groupby("time"), cycle(style.SEQUENCE), cycle(style.DASHES), strict=False)
-    for (time, part), color, dashes in (look for look in looks if look[0][0] in shown):
+    for (time, part), color, dashes in looks:
         label = f"$t = {time:g}$"
         axes.plot(part.momentum, part.weighted_density, color=color, linestyle=dashes, label=label)
         style.band(axes, part.momentum, part.weighted_density, part.error, color)
@@ -73,14 +64,12 @@ def number_bins(axes: Axes, result: Result) -> None:
 
 
 def caption(results: Sequence[Result]) -> str:
-    chain, coincide = results[0], [*map(stationary, results)]
-    fewer = " Coinciding curves are left out." if any(coincide) else ""
+    chain = results[0]
     columns = " Columns differ in λ, which the paper omits." if len(results) > 1 else ""
     first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
     return f"""
         The paper finds |p| n_t(p) stationary above a front p_0(t). Here ({parameters(results, "cells", "sigma", *BATHS, paper=PAPER["fig01"])}) its
-        height at λ = {run_parameters.spacing(chain)[1]} (c) goes from {first} to {last}, and p_0 ∼ t^a with a =
-        {style.format_quantity(chain["front_exponent"])}.{columns} (e), (f) Dashed: stationary flux.{fewer} {ERRORS}"""
+        height at λ = {run_parameters.spacing(chain)[1]} (c) goes from {first} to {last}. (e), (f) Fronts over λ/et, that of a stationary flux.{columns}"""
 
 
 @plots("unit-spacing unit-chain", varying="cell_length")
@@ -92,10 +81,8 @@ def draw(results: Sequence[Result]) -> Parts:
     )
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
-        times = [*map(float, result["plateau"].axes["time"])]
-        few = stationary(result)
-        plot_times(above, table[table.bins == "momentum"], times[-1:] if few else times)
-        plot_times(middle, table[table.bins == "speed"], times[:: max(1, len(times) // 2)] if few else times)
+        plot_times(above, table[table.bins == "momentum"])
+        plot_times(middle, table[table.bins == "speed"])
         front = table.drop_duplicates("time")
         expected = front.cell_length / (np.e * front.time)
         middle.errorbar(front.front, front.plateau / np.e, xerr=front.front_error, **FRONT, label="$p_0(t)$")
@@ -112,10 +99,6 @@ def draw(results: Sequence[Result]) -> Parts:
         below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/\mathrm{e}t)$", ylim=(0, top))
     style.letter(*rows[0], lift=26)
     style.letter(*rows[1:].flat, first=len(results))
-    curves = {
-        label: handle
-        for axes in reversed(rows[1])  # later spacings have the curves of all times
-        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
-    }
-    figure.legend(curves.values(), curves, loc="outside upper center", ncols=3 * len(results) // 2)
+    curves = rows[1, 0].get_legend_handles_labels()
+    figure.legend(*curves, loc="outside upper center", ncols=3 * len(results) // 2)
     return figure, pd.concat(tables), caption(results)

@@ -1,5 +1,5 @@
-"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with zero
-total momentum.
+"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum, also in a longer
+ring, and with zero total momentum.
 
 The mean square displacement of the centre of mass is the part due to drift.
 """
@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, parameters
+from workflow.lib.caption import parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -22,7 +22,12 @@ UNITS = {"fraction": "1", "slope_to_next": "1"}
 GUIDED = 100  # last time over the first time of the guides
 APART = 3  # factor between a guide and the last point
 
-LOOKS = {False: style.points("o", style.BLUE), True: style.points("s", style.VERMILLION, "white")}
+LOOKS = [  # the paper's ring and longer ones
+    style.points("o", style.BLUE),
+    style.points("^", style.GREEN),
+    style.points("D", style.ORANGE),
+]
+ZERO = style.points("s", style.VERMILLION, "white")
 
 
 def zero(result: Result) -> bool:
@@ -45,34 +50,47 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
-    last, paper = random.iloc[-1], results[0]
+def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+    paper = results[0]
     without = next(style.format_quantity(result["alpha"]) for result in results if zero(result))
+    fraction, error = (100 * tables[0][name].iloc[-1] for name in ("fraction", "fraction_error"))
     return f"""
-        The paper finds ⟨x²⟩ ∼ t^α with α slightly below 2. Here ({parameters([paper], "cells", "sigma", "particles_per_cell", "temperature", paper=PAPER["fig07"])}) α, fitted
-        in the shaded window, is {style.format_quantity(paper["alpha"])}, and {without} with zero total momentum. (a) Lines show the drift of the centre of mass, in the end
-        {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. (b) Exponents are local. {ERRORS}"""
+        The paper finds ⟨x²⟩ ∼ t^α with α slightly below 2. Here ({parameters([paper], "cells", "sigma", "particles_per_cell", "temperature", paper=PAPER["fig07"])}) α
+        is {style.format_quantity(paper["alpha"])} in the shaded window, and {without} at zero total momentum. Drift of the whole ring (lines) is
+        {format_with_error(fraction, error)} % in the end{weaker(results, tables)}. (b) Local exponents."""
 
 
-@plots("all zero-momentum", varying="zero_total_momentum")
+def weaker(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+    """The ratio of the drifts in the shortest and in the longest ring."""
+    drifts = [
+        (table.cells.iloc[-1], *table[["centre_of_mass_variance", "centre_of_mass_variance_error"]].iloc[-1])
+        for result, table in zip(results, tables, strict=True)
+        if not zero(result)
+    ]
+    (_, first, one), (cells, last, other) = drifts[0], drifts[-1]
+    ratio = first / last
+    error = ratio * np.hypot(one / first, other / last)
+    return f", {format_with_error(ratio, error)} times less at N = {cells}" if len(drifts) > 1 else ""
+
+
+@plots("all zero-momentum large", varying="zero_total_momentum cells")
 def draw(results: Sequence[Result]) -> Parts:
-    results = sorted(results, key=zero)
+    results = sorted(results, key=lambda result: (zero(result), result.parameters["cells"]))
     tables = [tabulate(result) for result in results]
     random = tables[0]
     time = random.time
     last = float(time.iloc[-1])
     window = (last / 10 ** results[0].parameters["fit_decades"], last)
     figure, (above, below) = style.stacked(2, 1, height=1.8)
-    for result, table in zip(results, tables, strict=True):
-        look = LOOKS[zero(result)]
-        name = ("zero" if zero(result) else "random") + " total momentum"
+    for k, (result, table) in enumerate(zip(results, tables, strict=True)):
+        look = ZERO if zero(result) else LOOKS[k % len(LOOKS)]
+        name = f"$N = {table.cells.iloc[0]}$, " + ("zero" if zero(result) else "random") + " momentum"
         above.errorbar(table.time, table.variance, table.variance_error, label=name, **look)
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
-            label = "centre of mass, random"
             drift, error = table.centre_of_mass_variance, table.centre_of_mass_variance_error
-            above.plot(table.time, drift, color=look["color"], zorder=1, label=label)
+            above.plot(table.time, drift, color=look["color"], zorder=1, label="its centre of mass")
             style.band(above, table.time, drift, error, look["color"])
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
@@ -86,8 +104,6 @@ def draw(results: Sequence[Result]) -> Parts:
         axes.axvspan(*window, **style.WINDOW)
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$")
-    title = f"${parameters(results, 'cells')}$, ${parameters(results, 'sigma')}$"
-    figure.legend(
-        *above.get_legend_handles_labels(), loc="outside upper left", ncols=2, title=title, alignment="left"
-    )
-    return figure, pd.concat(tables), caption(random, results)
+    below.set_ylim(bottom=min(0.8, below.get_ylim()[0]))
+    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return figure, pd.concat(tables), caption(results, tables)

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, listed, parameters
+from workflow.lib.caption import BATHS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error, local_exponents
 from workflow.lib.load import Result
@@ -21,9 +21,11 @@ from workflow.physics import run_parameters
 from workflow.physics.paper import PAPER
 
 TITLE = "Heat conductivity against the size of the chain"
-UNITS = dict.fromkeys(("exponent_to_next", "mean_field_exponent_to_next"), "1")
+EXPONENTS = {"kappa": "exponent_to_next", "kappa_heat": "heat_exponent_to_next"}
+UNITS = dict.fromkeys((*EXPONENTS.values(), "mean_field_exponent_to_next"), "1")
 UNITS |= {"mean_field_kappa": "energy/(time temperature)"}
 
+APART = 1.06  # factor of N between filled and open symbols
 BELOW = 0.7  # ratio of a guide to the lowest point
 GUIDES = {"N": (1 / 3, "$N^{1/3}$", "1/3"), "1": (1, "$N$", "1")}  # the paper's exponents by gamma
 
@@ -46,13 +48,18 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows: list[dict[str, Any]] = []
     for result in results:
         row = {"gamma": run_parameters.gamma(result), "cells": int(result.parameters["cells"])}
-        rows.append(row | {"usable": result.usable} | result.columns("kappa", "energy_current"))
+        rows.append(
+            row
+            | {"usable": result.usable}
+            | result.columns("kappa", "kappa_heat", "energy_current", "particle_current")
+        )
     table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
-    columns = ["between", "exponent_to_next", "exponent_to_next_error"]
-    table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
-    for _, part in table[table.usable].groupby("gamma", sort=False):
-        local = local_exponents(part.cells, part.kappa, part.kappa_error)
-        table.loc[part.index, columns] = np.transpose(local)
+    for name, exponent in EXPONENTS.items():
+        columns = ["between", exponent, f"{exponent}_error"]
+        table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
+        for _, part in table[table.usable].groupby("gamma", sort=False):
+            local = local_exponents(part.cells, part[name], part[f"{name}_error"])
+            table.loc[part.index, columns] = np.transpose(local)
     return table
 
 
@@ -66,7 +73,7 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
 
 def course(table: pd.DataFrame, gamma: str) -> str:
     """The largest and the last local exponent of a gamma."""
-    known = table[table.gamma == gamma].dropna(subset="between")
+    known = table[table.gamma == gamma].dropna(subset="exponent_to_next")
     if known.empty:
         return "not measured"
     rows = known.loc[[known.exponent_to_next.idxmax(), known.index[-1]]]
@@ -75,10 +82,14 @@ def course(table: pd.DataFrame, gamma: str) -> str:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    courses = listed(f"{course(table, gamma)} at γ = {gamma}" for gamma in table.gamma.unique())
+    gamma = next(iter(sorted(table.gamma.unique(), reverse=True)), "N")  # N, not 1
+    temperature = np.mean(results[0].ends("temperature"))
+    carried = (-temperature * table.particle_current / table.energy_current)[table.gamma == gamma]
+    low, high = (f"{value:.1f}" for value in (carried.min(), carried.max()))
     return f"""
-        The paper reads the conductivity κ = −J_U N/(T_N − T_1) as N^(1/3) at γ = N and as N at γ = 1. Here
-        ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])}) exponents (b) are {courses}. {ERRORS}"""
+        The paper reads κ, here −J_U N/(T_N − T_1), where its formula lacks N, as N^(1/3) at γ = N and N at γ = 1. Here
+        ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])}) exponents (b) at γ = {gamma} are {course(table, gamma)}. Open: heat alone, J_U − T J_n;
+        particles carry {low} to {high} J_U backwards."""
 
 
 @plots("deterministic deterministic-large rare rare-small mean-field", varying="cells gamma")
@@ -96,6 +107,8 @@ def draw(results: Sequence[Result]) -> Parts:
             style.guide_at(below, slope, text)
         above.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
         below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
+        heat, error = part.heat_exponent_to_next, part.heat_exponent_to_next_error
+        below.errorbar(APART * part.between, heat, error, **style.points(*looks[gamma], "white"))
     for gamma, line in theory.groupby("gamma"):
         color, label = looks.get(gamma, ("", style.BLACK))[1], rf"$\gamma = {gamma}$, mean field"
         above.plot(line.cells, line.mean_field_kappa, "--", color=color, label=label)

@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, parameters
+from workflow.lib.caption import listed, parameters
 from workflow.lib.figure import Parts
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -80,27 +80,19 @@ def draw_guides(above: Axes, below: Axes, slopes: Guides, table: pd.DataFrame) -
 
 
 def exponents(result: Result) -> str:
-    """Verb phrase on the exponents of the first and the last octave with a moving peak."""
+    """Verb phrase on the exponents of all octaves with a moving peak."""
     found = by_octave(result).dropna(subset="octave_exponent")
     texts = [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
-    if len(texts) > 1:
-        return f"goes from {texts[0]} to {texts[-1]}"
-    return f"is {texts[0]}" if texts else "is not resolved"
+    return f"is {listed(texts)}" if texts else "is not resolved"
 
 
 def caption(results: Sequence[Result]) -> str:
     rest, gamma = results[0], run_parameters.gamma(results[0])
     law = "t^(−2/3)" if gamma == "N" else "t^(−1)"
-    dashed = {"N": " Dashed lines show 2/3 (sound) and 1/2 (shock).", "1": " The dashed line shows 1."}
-    long = max(results, key=lambda result: result.parameters["cells"])
-    longer = (
-        f"; {named_start(long)} in {long.parameters['cells']} cells it {exponents(long)}"
-        if long is not rest
-        else ""
-    )
+    guides = {"N": " Dashed: 2/3 (sound) and 1/2 (shock)."}
     return f"""
-        The paper reads the height of the peak as {law}. Here ({parameters([rest], "cells", "sigma", "particles_per_cell", paper=PAPER["fig10"])}) the exponent {named_start(rest)}
-        {exponents(rest)}{longer}. (a) Heights of smooth fits. (b) Exponents over octaves.{dashed.get(gamma, "")} {ERRORS}"""
+        The paper reads the height of the peak as {law}. Here ({parameters([rest], "cells", "sigma", "particles_per_cell", paper=PAPER["fig10"])}) the exponent over
+        successive octaves (b), {named_start(rest)}, {exponents(rest)}.{guides.get(gamma, "")}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -2,8 +2,8 @@
 
 In a fraction epsilon of the collisions the momenta of the particle, its scatterer and a neighbouring one are
 rotated, which conserves energy and momentum [eq. 60], or the momentum of the scatterer is reversed, which
-conserves energy alone. Chains have a fixed spacing. Q is the heat current of a ring, integrated over its cells
-and a time [eq. 58]. The table also has other gases.
+conserves energy alone. The chains are those of fig. 8. Q is the heat current of a ring, integrated over its cells
+and a time [eq. 58]; <Q²>/2t per cell is its heat conductivity at this time, in units of T².
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,17 +16,15 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, format_number
+from workflow.lib.caption import format_number, listed
 from workflow.lib.figure import PHYSICS, Parts, plots
-from workflow.lib.fit import format_with_error
+from workflow.lib.fit import fit_power, format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.study import rings
 
 TITLE = "Heat transport with and without conserved momentum"
-UNITS = dict.fromkeys(("epsilon", "zeta", "mass", "growth"), "1")
-
-CURVE = ["rule", "epsilon"]  # columns that identify a curve of chains
+UNITS = dict.fromkeys(("epsilon", "zeta", "mass"), "1") | {"spread": "energy^2 length^2/time"}
 
 
 class Case(NamedTuple):
@@ -41,15 +39,14 @@ class Case(NamedTuple):
         return f"{kind}, {100 * self.epsilon:g} %" if self.epsilon else "no noise"
 
 
-# Filled where momentum is conserved, open where it is not; the larger the fraction, the lighter.
+# Filled where momentum is conserved, open where it is not; the larger the fraction, the darker.
 LOOKS: dict[str, list[tuple[str, str, str | None]]] = {
     "elastic": [("o", style.BLACK, None)],
-    "rotation": [("s", style.BLUE, None), ("D", style.SKY, None)],
+    "rotation": [("D", style.SKY, None), ("s", style.BLUE, None)],
+    "reversal": [("v", style.ORANGE, "white"), ("^", style.VERMILLION, "white"), ("<", "#7f3b08", "white")],
 }
-LOOKS |= {"reversal": [("v", style.VERMILLION, "white"), ("^", style.ORANGE, "white")]}
 OTHER_RULES: list[tuple[str, str, str | None]] = [("P", style.GREEN, None), ("X", style.GREEN, None)]
-
-OTHERS = style.points(".", "0.6", linestyle="-", linewidth=0.5, zorder=1)
+LINE: style.Look = {"linestyle": "-", "linewidth": 0.6}
 
 
 def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
@@ -58,114 +55,110 @@ def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
     for rule in dict.fromkeys([*LOOKS, *sorted({case.rule for case in cases})]):
         of_rule = sorted({case for case in cases if case.rule == rule})
         own = cycle(LOOKS.get(rule, OTHER_RULES))
-        found |= {case: style.points(*look) for case, look in zip(of_rule, own, strict=False)}
+        found |= {case: style.points(*look) | LINE for case, look in zip(of_rule, own, strict=False)}
     return found
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per chain, sorted by N, with kappa over that at the smallest size that all curves have."""
+    """One row per chain, sorted by N."""
     rows: list[dict[str, Any]] = []
     for result in results:
         row: dict[str, Any] = {"rule": result.parameters["rule"], "epsilon": run_parameters.epsilon(result)}
-        row |= {"spacing": run_parameters.spacing(result)[1], "cells": int(result.parameters["cells"])}
-        rows.append(row | result.columns("kappa") | {"usable": result.usable})
-    table = pd.DataFrame(rows).sort_values([*CURVE, "cells"], ignore_index=True)
-    reference = (
-        table[table.cells == min(common_sizes(table))].set_index(CURVE).reindex(table.set_index(CURVE).index)
-    )
-    relative = np.hypot(table.kappa_error / table.kappa, (reference.kappa_error / reference.kappa).to_numpy())
-    table["growth"] = table.kappa / reference.kappa.to_numpy()
-    table["growth_error"] = table.growth * relative.where(table.cells != reference.cells.to_numpy(), 0)
-    return table
-
-
-def common_sizes(table: pd.DataFrame) -> set[int]:
-    """Sizes of all curves."""
-    return set.intersection(*(set(part.cells) for _, part in table.groupby(CURVE)))
+        row |= {"cells": int(result.parameters["cells"]), "usable": result.usable}
+        rows.append(row | result.columns("kappa"))
+    return pd.DataFrame(rows).sort_values(["rule", "epsilon", "cells"], ignore_index=True)
 
 
 def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
     return table[(table.rule == case.rule) & (table.epsilon == case.epsilon)]
 
 
-def growth(chains: pd.DataFrame, case: Case) -> str:
-    """kappa of a case at the largest size that all curves have, over that at the smallest."""
-    fixed = of_case(chains, case)
-    rows = fixed[fixed.cells == max(common_sizes(chains))]
-    return format_with_error(*rows[["growth", "growth_error"]].iloc[0]) if len(rows) else "(unknown)"
-
-
-def last_exponent(control: pd.DataFrame, case: Case) -> str:
-    """beta - 1 of a case over the last octave."""
-    rows = of_case(control, case).dropna(subset="local_exponent")
-    if rows.empty:
+def growth(chains: pd.DataFrame, case: Case, common: Iterable[int]) -> str:
+    """Mean exponent of kappa of a case over the sizes that all have."""
+    rows = of_case(chains, case)
+    rows = rows[rows.cells.isin([*common]) & rows.usable]
+    if len(rows) < 2:
         return "(unknown)"
-    end = rows.iloc[-1]
-    return format_with_error(end.local_exponent - 1, end.local_exponent_error)
+    law = fit_power(rows.cells, rows.kappa, rows.kappa_error, np.inf)
+    return format_with_error(law.exponent, law.error)
 
 
-def caption(chains: pd.DataFrame, control: pd.DataFrame, cases: Sequence[Case], *, others: bool) -> str:
+def caption(chains: pd.DataFrame) -> str:
     sizes = common_sizes(chains)
-    epsilon = min(case.epsilon for case in cases if case.rule == "reversal")
+    epsilon = chains[chains.rule == "reversal"].epsilon.min()
     compared = [Case("elastic", 0), Case("rotation", epsilon), Case("reversal", epsilon)]
-    elastic, rotated, broken = (growth(chains, case) for case in compared)
-    ends = [last_exponent(control, case) for case in compared[1:]]
-    grey = " Grey: without noise, in other gases." if others else ""
+    elastic, rotated, broken = (growth(chains, case, sizes) for case in compared)
     return f"""
-        Noise that conserves energy and momentum (rotation, filled), or energy alone (reversal, open), in a fraction of the collisions.
-        (a) In chains κ({max(sizes)})/κ({min(sizes)}) is {elastic} without noise, {rotated} and {broken} at {100 * epsilon:g} %. (b) In rings ⟨Q²⟩ ∼ t^β;
-        at {100 * epsilon:g} % β − 1 ends at {ends[0]} and {ends[1]}.{grey} {ERRORS}"""
+        Noise in a fraction of the collisions conserves energy and momentum (filled), or energy alone (open).
+        (a) In fig. 8's chain κ ∼ N^a, on average from N = {min(sizes)} to {max(sizes)}, with a = {listed([elastic, rotated, broken])} without noise and with
+        {100 * epsilon:g} % of either. (b) Heat of a ring: only broken momentum stops its growth. (c) Without noise."""
+
+
+def common_sizes(chains: pd.DataFrame) -> set[int]:
+    """Sizes of all cases."""
+    return set.intersection(*(set(part.cells) for _, part in chains.groupby(["rule", "epsilon"])))
 
 
 def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
     for case, points in look.items():
         part = of_case(chains, case)
-        axes.errorbar(part.cells, part.growth, part.growth_error, label=case.label, **points)
-    style.cross_out(axes, chains.cells, chains.growth, ~chains.usable)
+        axes.errorbar(part.cells, part.kappa, part.kappa_error, label=case.label, **points)
+    style.cross_out(axes, chains.cells, chains.kappa, ~chains.usable)
     style.against_size(axes)
-    axes.set_ylabel(rf"$\kappa(N)/\kappa({min(common_sizes(chains))})$")
+    axes.set(yscale="log", ylabel=r"$\kappa$")
 
 
 def draw_rings(axes: Axes, control: pd.DataFrame, look: dict[Case, style.Look]) -> None:
-    """Plots β - 1 of every case."""
+    """Plots the conductivity <Q²>/2t of every case."""
     for case, points in look.items():
         part = of_case(control, case)
-        axes.errorbar(part.middle, part.local_exponent - 1, part.local_exponent_error, **points)
+        axes.errorbar(part.time, part.spread, part.spread_error, label=case.label, **points)
+    axes.set(xscale="log", yscale="log", xlabel="time $t$", ylabel=r"$\langle Q^2\rangle/2tN$")
+    style.label_within_decades(axes.yaxis)
+
+
+def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
+    """Plots β - 1 of every gas."""
+    ours = cycle([("o", style.BLACK), *style.LOOKS[1:]])
+    for (_, gas), (marker, color) in zip(elastic.groupby(rings.STATE, sort=False), ours, strict=False):
+        zeta, mass = (format_number(float(f"{gas[name].iloc[0]:.13g}")) for name in ("zeta", "mass"))
+        look = style.points(marker, color) | LINE
+        label = rf"$\zeta = {zeta}$, $M = {mass}$"
+        axes.errorbar(gas.middle, gas.local_exponent - 1, gas.local_exponent_error, label=label, **look)
     style.guide_at(axes, 0, "0")
     style.guide_at(axes, 1 / 3, "1/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$")
+    axes.legend(loc="upper right")
 
 
-RINGS = "light light-long light-longest dense-longest dilute-longest sparse-longest rotation reversal "
-CHAINS = "chain-elastic chain-rotation chain-reversal"
+SERIES = "light light-long light-longest dense-longest dilute-longest sparse-longest rotation reversal "
+SERIES += "chain-rotation chain-reversal deterministic deterministic-large"
 
 
-@plots(RINGS + CHAINS, varying=" ".join(PHYSICS))
+@plots(SERIES, varying=" ".join(PHYSICS))
 def draw(results: Sequence[Result]) -> Parts:
     of_rings = [result for result in results if result.provenance["program"] == "heat_current"]
     chains = tabulate([result for result in results if result not in of_rings])
+    disturbed = chains[chains.rule != "elastic"].cells
+    chains = chains[chains.cells.between(disturbed.min(), disturbed.max())]
     table = rings.tabulate(of_rings)
+    table["spread"] = table.heat_variance / (2 * table.time)
+    table["spread_error"] = table.heat_variance_error / (2 * table.time)
     broken = table[table.rule == "reversal"].iloc[0]
     control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
     cases = [Case(*pair) for part in (chains, control) for pair in zip(part.rule, part.epsilon, strict=True)]
-    look = {case: points | {"linestyle": "-", "linewidth": 0.6} for case, points in looks(cases).items()}
-    figure, panels = plt.subplots(1, 2, figsize=(1.6 * style.COLUMN, style.HEIGHT))
-    draw_chains(panels[0], chains, look)
-    draw_rings(panels[1], control, look)
-    others = [
-        panels[1].errorbar(other.middle, other.local_exponent - 1, other.local_exponent_error, **OTHERS)
-        for _, other in table[(table.rule == "elastic") & ~table.index.isin(control.index)].groupby(
-            rings.STATE
-        )
-    ]
-    gas = rf"$\sigma = {format_number(float(of_rings[0].parameters['sigma']))}$, $\zeta = {broken.zeta:g}$"
-    one = next(result for result in results if result not in of_rings)
-    sigma, spacing = float(one.parameters["sigma"]), run_parameters.spacing(one)[1]
-    of_chains = rf"chains, $\sigma = {format_number(sigma)}$, $\lambda = {spacing}$"
-    for axes, text in zip(panels, (of_chains, f"rings, {gas}"), strict=True):
+    look = looks(cases)
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
+    draw_chains(left, chains, look)
+    draw_rings(middle, control, look)
+    elastic = table[table.rule == "elastic"]
+    ours = elastic.index.isin(control.index)
+    draw_gases(right, pd.concat([elastic[ours], elastic[~ours]]))
+    gas = rf"rings, $\zeta = {broken.zeta:g}$, $M = {format_number(broken.mass)}$"
+    for axes, text in zip(
+        (left, middle, right), ("chains of fig. 8", gas, "rings without noise"), strict=True
+    ):
         axes.set_title(text, size=style.label_size())
-    handles, labels = panels[0].get_legend_handles_labels()
-    labels += ["no noise, other gases"] * bool(others)
-    figure.legend([*handles, *others[:1]], labels, loc="outside upper center", ncols=3)
-    style.letter(*panels)
-    return figure, pd.concat([chains, table]), caption(chains, control, cases, others=bool(others))
+    figure.legend(*middle.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    style.letter(left, middle, right)
+    return figure, pd.concat([chains, table]), caption(chains)
