@@ -37,7 +37,6 @@ FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 
 OF_SERIES: Schema = {
     "program": True,
     "target-scale": SCALE,  # reference value of ERROR where the target may be 0
-    "common-seed": {"type": "boolean", "allowed": "true or false"},  # of all such runs of the panel
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 # Names of panels are rules of Snakemake.

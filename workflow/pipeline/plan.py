@@ -232,7 +232,7 @@ class Plan:
 
     def _runs(self, panel: str, series: str, program: str, options: Options) -> Iterator[Run]:
         """The runs of a series: one for each combination of the values of options with a list."""
-        scale, common_seed = options.pop("target-scale", None), options.pop("common-seed", False)
+        scale = options.pop("target-scale", None)
         options.pop("program", None)
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
@@ -240,7 +240,7 @@ class Plan:
             name, one = run_name(series, chosen), options | chosen
             one = {key: evaluated(value, one.get("cells")) for key, value in one.items()}
             if is_sampled(program):
-                one = self.selection.with_effort(panel if common_seed else f"{panel}/{name}", one, scale)
+                one = self.selection.with_effort(f"{panel}/{name}", one, scale)
             yield Run(name, series, program, one, f"data/{self.selection.name}/{panel}")
 
     def _check(self, document: Document, planned: dict[str, Panel]) -> None:
