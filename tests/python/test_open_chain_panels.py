@@ -86,7 +86,7 @@ def test_fig02_lower() -> None:
     assert_line(above, x, line)
     assert_points(below, (x, density / line, error / line))
     np.testing.assert_allclose(table.bulk, line)
-    assert "an end cell exceeds a line through the shaded half (b) by at most 30.00(28) % at γ = 1" in caption
+    assert "an end cell exceeds a line (b) by at most 30.00(28) % at γ = 1" in caption
 
 
 def test_fig08() -> None:

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, parameters
+from workflow.lib.caption import BATHS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import local_slopes
 from workflow.lib.load import Result
@@ -81,11 +81,11 @@ def caption(results: Sequence[Result]) -> str:
     shape = "straight" if straight(chain) else "curved"
     slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
     fit = f"the line in (a) has the slope {slope}" if straight(chain) else "no line is fitted"
-    other = " (b) Another spacing." if len(results) > 1 else ""
+    other = " (b), (d) Another spacing." if len(results) > 1 else ""
     return f"""
         The paper finds that n(t) grows as ln t. Here ({parameters(results, "cells", "sigma", *BATHS, paper=PAPER["fig01"])}), at λ =
-        {run_parameters.spacing(chain)[1]}, it is {shape} in ln t: {fit}.{other} (c), (d) In
-        filled chains the slope equals the height of |p| n_t(|p|), {height} in (c). {ERRORS}"""
+        {run_parameters.spacing(chain)[1]}, it is {shape} in ln t: {fit}. (c) Once the chain is
+        filled, slopes equal the height of |p| n_t(|p|), {height}.{other}"""
 
 
 @plots("unit-spacing unit-chain", varying="cell_length")

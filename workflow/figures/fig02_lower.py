@@ -37,7 +37,7 @@ def caption(results: Sequence[Result]) -> str:
     )
     return f"""
         The paper finds that particles accumulate at the ends, more at γ = 1. Here ({parameters(results, "cells", "cell_length", *BATHS, paper=PAPER["fig02"])})
-        an end cell exceeds a line through the shaded half (b) by at most {excess}. The curves differ by 2ζ ln N slow particles per cell, as a flight is N times as long at γ = 1."""
+        an end cell exceeds a line (b) by at most {excess}. (a) The offset is slow particles, 2ζ ln N."""
 
 
 @plots("deterministic rare", varying="gamma")

@@ -67,9 +67,8 @@ def caption(results: Sequence[Result], outgoing: float) -> str:
     jumps = listed(f"{paper['jump'].mean[index]:.4g} at {end}" for index, end, *_ in ENDS).replace("-", "−")
     dotted = " (dotted: equal temperatures)" if EQUAL in map(case, results) else ""
     return f"""
-        The paper finds a jump of the flux F(p, x) at p = 0. (a) Here ({parameters([paper], "sigma", "gamma", *BATHS, paper=PAPER["fig03"])}) it is {jumps}.
-        (b) Outgoing halves deviate from the Gaussian of their rate and second moment by up to {outgoing:.2g} % where F exceeds
-        {100 * OFTEN:g} % of its maximum{dotted}."""
+        The paper finds a jump of F(p, x) at p = 0. Here ({parameters([paper], "sigma", "gamma", *BATHS, paper=PAPER["fig03"])}) it is {jumps}.
+        (b) Outgoing halves deviate from a Gaussian by up to {outgoing:.2g} % where F exceeds {100 * OFTEN:g} % of its maximum{dotted}."""
 
 
 @plots("paper equal", varying="temperature_left temperature_right")

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, parameters
+from workflow.lib.caption import listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -68,18 +68,14 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
     printed = (table.absolute_as_printed / table.deviation).median()
     points = amplitudes(table)
-    first, last = (
-        format_with_error(100 * row.amplitude, 100 * row.error) for row in points.iloc[[0, -1]].itertuples()
-    )
-    normalised = 100 * printed * points.iloc[0]
-    short, long = points.cells.iloc[[0, -1]]
-    largest = (
-        f"{first} % of max F at N = {short} ({format_with_error(normalised.amplitude, normalised.error)} % if ∫F dp = 1)",
-        f"{last} % at N = {long}",
-    )
+    scale = 100 * printed
+    largest = [
+        f"{format_with_error(scale * row.amplitude, scale * row.error)} % at N = {row.cells}"
+        for row in points.iloc[[0, -1]].itertuples()
+    ]
     return f"""
         The paper finds F_N − F, chain minus kinetic equation, below {LIMITS[0][1]}, and below {LIMITS[1][1]} in the longest chain.
-        Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum (c) is {listed(largest)}. (a), (b) Lines show the mean field. {ERRORS}"""
+        Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum, if ∫F dp = 1, is {listed(largest)} (c). Lines: mean field."""
 
 
 @plots("simulation continuum mean-field", varying="cells")

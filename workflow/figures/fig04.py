@@ -14,7 +14,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, listed, parameters
+from workflow.lib.caption import BATHS, listed, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -147,11 +147,11 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     else:
         claim = "follows the kinetic equation, with a jump at p = 0"
     still = main[main.nu_left == main.nu_right]
-    equal = f", and {jumps_of(still)} at equal rates" if len(still) else ""
+    equal = " (open: equal rates)" if len(still) else ""
     return f"""
-        The paper finds that the flux F_N(p, x) behind both end scatterers {claim}. Here ({parameters([chain], "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig04"])})
-        it differs from the kinetic equation (black) by at most {math.ceil(10 * far) / 10:g} % of max F.
-        (d) The jumps are {jumps_of(unequal)}{equal}. {ERRORS}"""
+        The paper finds that F_N(p, x) behind the end scatterers {claim}. Here ({parameters([chain], "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig04"])})
+        it differs from the kinetic equation (black) by up to {math.ceil(10 * far) / 10:g} % of max F.
+        (d) Jumps: {jumps_of(unequal)}{equal}."""
 
 
 @plots(

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, format_number, listed, parameters
+from workflow.lib.caption import format_number, listed, parameters
 from workflow.lib.figure import Parts, plots, require_elastic
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
@@ -68,16 +68,15 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     dense = [result for result in results if result.series == "dense"]
     main = [result for result in results if result not in dense] or results
-    names = {"paper": "", "zero-momentum": "with total momentum Π = 0 "}
-    names["dense"] = f"with {parameters(dense, 'particles_per_cell')} "
+    names = {"paper": "", "dense": f" ({parameters(dense, 'particles_per_cell')})"}
     most = []
-    for name, part in table[table.sigma.abs() <= STEEP].groupby("series", sort=False):
+    shown = table[(table.sigma.abs() <= STEEP) & (table.series != "zero-momentum")]
+    for name, part in shown.groupby("series", sort=False):
         far = part.loc[part.deviation.abs().idxmax()]
-        most.append(f"{names.get(name, f'in {name} ')}by {format_with_error(far.deviation, far.mu_error)}")
+        most.append(f"{format_with_error(far.deviation, far.mu_error)}{names.get(name, f' in {name}')}")
     return f"""
         The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π. (b) Here ({parameters(main, "cells", "particles_per_cell", "temperature", paper=PAPER["fig05"])})
-        μ differs, at most for |σ| ≤ {format_number(STEEP)}, {listed(sorted(most))}.
-        Dashes: the law at the conserved Π. {ERRORS}"""
+        μ differs, for |σ| ≤ {format_number(STEEP)}, by up to {listed(most)}. Dashes: the law at the conserved total momentum."""
 
 
 @plots("paper zero-momentum dense", varying="sigma particles_per_cell zero_total_momentum")

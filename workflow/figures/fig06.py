@@ -13,9 +13,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, format_number, listed, parameters
+from workflow.lib.caption import format_number, listed, parameters
 from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.paper import PAPER
 
@@ -98,10 +97,8 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     # Weights by the counts that the exact density predicts: those observed would favour bins that are low.
     weight = tail.tau * exact
     mean = np.average(tail.density / exact, weights=weight)
-    error = np.hypot.reduce(tail.tau * tail.density_error) / weight.sum()
     expected = 50 * np.pi / int(result.parameters["particles_per_cell"])
-    excess = format_with_error(100 * (mean - 1), 100 * error)
-    return f" At σ = 0 the tail is {excess} % above n → ∞; expected: {expected:.2g} %."
+    return f" At σ = 0 the tail is {100 * (mean - 1):.2g} % above n → ∞ (expected: {expected:.2g} %)."
 
 
 def caption(results: Sequence[Result], young: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
@@ -109,13 +106,9 @@ def caption(results: Sequence[Result], young: Sequence[Result], tables: Sequence
     exponents = listed(style.format_quantity(result["exponent"]) for result in results)
     pairs = zip(results, tables, strict=True)
     excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
-    early = ""
-    if young:
-        younger = results[0].parameters["relaxation_time"] / young[0].parameters["relaxation_time"]
-        early = f" ({younger:.3g} times earlier: {listed(style.format_quantity(one['exponent']) for one in young)})"
     return f"""
-        The paper gives the density Ψ(τ) of waiting times the exponents {powers}. Here ({parameters(results, "gamma", "particles_per_cell", paper=PAPER["fig06"])})
-        they are {exponents} in the shaded windows{early}.{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %. {ERRORS}"""
+        The paper gives Ψ(τ) the exponents {powers}. Here ({parameters(results, "gamma", "particles_per_cell", paper=PAPER["fig06"])})
+        they are {exponents} in the shaded windows.{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %."""
 
 
 @plots("all young", varying="sigma")

@@ -56,7 +56,7 @@ def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     fraction, error = (100 * tables[0][name].iloc[-1] for name in ("fraction", "fraction_error"))
     return f"""
         The paper finds ⟨x²⟩ ∼ t^α with α slightly below 2. Here ({parameters([paper], "cells", "sigma", "particles_per_cell", "temperature", paper=PAPER["fig07"])}) α
-        is {style.format_quantity(paper["alpha"])} in the shaded window, and {without} at zero total momentum. Drift of the whole ring (lines) is
+        is {style.format_quantity(paper["alpha"])} in the shaded window, and {without} at zero total momentum. Drift (lines) is
         {format_with_error(fraction, error)} % in the end{weaker(results, tables)}. (b) Local exponents."""
 
 

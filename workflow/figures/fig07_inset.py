@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters, rule
+from workflow.lib.caption import RULE_PHRASES, format_number, parameters, rule
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
@@ -69,15 +69,10 @@ def extreme(part: pd.DataFrame, row: int) -> str:
 
 def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
     kinds = dict([*shown.groupby("kind")])
-    random = f" and {extreme(kinds[RANDOM], -1)} with random directions" if RANDOM in kinds else ""
-    exchanged = kinds[ZERO][kinds[ZERO].sigma == 0]
-    exchange = "The exponents without drift are enlarged."
-    if len(exchanged):
-        alpha = format_with_error(*exchanged[["alpha", "alpha_error"]].iloc[-1])
-        exchange = f"At σ = 0 momenta are only exchanged; without drift α is {alpha}."
     return f"""
         The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) Here ({parameters(results, "cells", "particles_per_cell", "temperature", paper=PAPER["fig07_inset"])}) it is at least
-        {extreme(kinds[PAPERS], 0)}, at most {extreme(kinds[ZERO], -1)} with zero total momentum{random}. (b) {exchange} {ERRORS}"""
+        {extreme(kinds[PAPERS], 0)}, by drift of the ring: at zero total momentum, at most {extreme(kinds[ZERO], -1)} (b). At σ = 0
+        momenta are only exchanged."""
 
 
 @plots("all zero-momentum aged random", varying="sigma zero_total_momentum rule")

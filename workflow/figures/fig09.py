@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, parameters
+from workflow.lib.caption import parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -79,8 +79,8 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
 
 def motion(result: Result) -> str:
     """Verb phrase on the speed of the peak: its mean over time if first and last value do not differ
-    significantly, else both, and the extreme one between them. Speeds and positions of a run are correlated:
-    errors of differences are at most the sum of both."""
+    significantly, else both. Speeds and positions of a run are correlated: errors of differences are at most the
+    sum of both."""
     speed, where = result["peak_speed"], result["peak_position"]
     known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
     if not len(known):
@@ -88,10 +88,8 @@ def motion(result: Result) -> str:
     first, last = known[[0, -1]]
     change = speed.mean[last] - speed.mean[first]
     if abs(change) > SURE * (speed.error[first] + speed.error[last]):
-        extreme = known[np.argmax(np.sign(change) * speed.mean[known])]
-        texts = [style.format_quantity(speed, index) for index in (first, extreme, last)]
-        between = f"{texts[1]} at t = {speed.axes['middle'][extreme]:.2g}, and is then "
-        return f"{'rises' if change > 0 else 'falls'} from {texts[0]} to {between * bool(extreme != last)}{texts[2]}"
+        texts = [style.format_quantity(speed, index) for index in (first, last)]
+        return f"{'rises' if change > 0 else 'falls'} from {texts[0]} to {texts[1]} in the end"
     ends = [first, last + 1]  # between which the speeds are known
     time = np.ptp(where.axes["time"][ends])
     return (
@@ -103,16 +101,14 @@ def caption(results: Sequence[Result]) -> str:
     closed = any(result["ring_closed"].mean.any() for result in results)
     faint = " Faint rings are closed." if closed else ""
     rest = results[0]
-    sound = " (d) Dashed: sound in the ring from rest." * with_sound(rest)
+    sound = "; (d) sound in the ring from rest" * with_sound(rest)
     if rest.parameters["gamma"] == "N":
         peaks, near = "two peaks of almost constant speed", ""
     else:
-        peaks = "peaks of constant speed"
-        near = " In the dips, particles are missing; the spike is the central scatterer, rarely hit."
+        peaks, near = "peaks of constant speed", " The spike is the central scatterer, rarely hit."
     return f"""
         The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. Here ({parameters(results, "cells", "sigma", "particles_per_cell", paper=PAPER["fig09"])}),
-        {named_start(rest)}, the speed in cells per time {motion(rest)}.{near}{faint} (c) Dashed lines continue the
-        first speed.{sound} {ERRORS}"""
+        {named_start(rest)}, the speed in cells per time {motion(rest)}.{near}{faint} Dashed: (c) the first speed{sound}."""
 
 
 @plots("rest gaussian", varying="scatterer_temperature")

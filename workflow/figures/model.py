@@ -139,7 +139,7 @@ def draw(_: Sequence[Result]) -> Parts:
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
     caption = f"""
-        The paper defines this model, simulated here with N = {CELLS} cells, σ = {format_number(SIGMA)} and γ = N. A particle flies past all others to the
-        next scatterer (grey), which is fixed in place, and the two exchange energy and momentum. Colours show energies. (a) The ring, joined at the
-        dashed ends, holds {CELLS * PER_CELL} particles. (b) Baths, coloured by temperature, inject particles and absorb those that reach them."""
+        A particle flies past all others to the next scatterer (grey), which is fixed in place, and both exchange energy (colours) and momentum.
+        Simulated with N = {CELLS} cells, σ = {format_number(SIGMA)} and γ = N. (a) The ring, joined at the dashed ends. (b) Baths, coloured by temperature, inject
+        particles and absorb those that reach them."""
     return figure, table, caption

@@ -28,7 +28,6 @@ RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the 
 FEW = 3  # runs that are named one by one
 DOUBTS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
 DOUBTS |= {NOT_TESTED: "With too few replicas to test whether stationary"}
-ERRORS = "Bars show standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
