@@ -27,18 +27,16 @@ def test_every_quality_describes_every_panel(quality: str) -> None:
 def test_names_and_seeds_are_unique() -> None:
     panels = [*planned("paper")]
     names = [(panel.name, run.name) for panel in panels for run in panel.runs]
-    common = ("unit", "tripled")  # series with a common seed
-    seeds = [
-        run.options["seed"]
-        for panel in panels
-        for run in panel.runs
-        if sampled(run) and run.series not in common
-    ]
+    seeds = [run.options["seed"] for panel in panels for run in panel.runs if sampled(run)]
     assert len(set(names)) == len(names)
     assert len(set(seeds)) == len(seeds)
-    assert (
-        len({run.options["seed"] for run in planned("paper")["stability"].runs if run.series in common}) == 1
-    )
+
+
+def test_a_common_seed_is_that_of_all_such_runs_of_the_panel(tmp_path: Path) -> None:
+    own = tmp_path / "own.yaml"
+    series = "{program: persistence, cells: [4, 5], common-seed: true}"
+    own.write_text(f"panels: {{mine: {{series: {{one: {series}, other: {series}}}}}}}\n")
+    assert len({run.options["seed"] for run in Plan("smoke", [PANELS[0], own])["mine"].runs}) == 1
 
 
 def test_seeds_stay_as_they_are() -> None:
