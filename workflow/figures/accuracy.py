@@ -132,7 +132,10 @@ def draw_errors(axes: Axes, table: pd.DataFrame, lines: pd.DataFrame) -> None:
 
 
 def draw_costs(axes: Axes, kappa: pd.DataFrame) -> None:
-    """Plots the cost of 1 % against N."""
+    """Plots the cost of 1 % against N, if there are such runs."""
+    if kappa.empty:
+        axes.set_visible(False)
+        return
     looks = style.by_gamma(kappa.gamma)
     for gamma, part in kappa.sort_values("cells").groupby("gamma"):
         marker, color = looks[gamma]
