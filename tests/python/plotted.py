@@ -95,6 +95,6 @@ def assert_points(axes: Axes, *expected: tuple[Any, Any, Any]) -> None:
 def assert_line(axes: Axes, x: Any, y: Any) -> None:
     """One of the lines has these points."""
     assert any(
-        len(a) == len(x) and np.allclose(a, x) and np.allclose(b, y, rtol=1e-9, equal_nan=True)
+        len(a) == len(x) and np.allclose(a, x) and np.allclose(b, y, rtol=1e-9, atol=0, equal_nan=True)
         for a, b in lines(axes)
     )

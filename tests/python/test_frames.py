@@ -12,7 +12,7 @@ import pytest
 
 from tests.python.conftest import ROOT, command_line
 from tests.python.plotted import CHAIN, draw, points, result
-from workflow.figures import accuracy, fig03_inset, fig09, stability
+from workflow.figures import accuracy, fig03_inset, fig09
 from workflow.lib import style
 from workflow.lib.caption import with_doubts
 from workflow.lib.figure import NoValueError
@@ -60,28 +60,20 @@ def test_the_frame_of_fig02_upper_follows_the_baths() -> None:
     assert high > baths["temperature_right"]
 
 
-def looks_of(*axes: plt.Axes) -> int:
-    """Number of series of points."""
-    return sum(len(points(each)) for each in axes)
-
-
 def test_more_series_than_looks_are_all_plotted() -> None:
     """Detected mistake: series from the fifth or sixth on are dropped."""
     sizes = np.arange(2, 2 + MANY)
-    _, (of_sizes, targets, partings, kinetic) = plt.subplots(1, 4)
+    _, (of_sizes, kinetic) = plt.subplots(1, 2)
     rows = [
         {"kind": kind, "cells": size, "momentum": -1.0, "deviation": 0.1, "error": 0.1}
         for kind in (SIMULATION, MEAN_FIELD) for size in sizes
     ]  # fmt: skip
     fig03_inset.draw_end(of_sizes, pd.DataFrame(rows), -1, 2, "left end")
-    run = {"cpu_seconds": 1.0, "deviation": 0.1, "error": 0.1}
-    runs = pd.DataFrame([run | {"target_error": 0.1 / size, "gamma": str(size)} for size in sizes])
-    accuracy.draw_targets(targets, runs.assign(series="target"))
-    accuracy.draw_kinetic(kinetic, runs.assign(series="kinetic"))
-    pairs = pd.DataFrame({"cells": sizes, "collisions": 1.0, "difference": 0.1, "relative_error": 0.1})
-    stability.draw_partings(partings, pairs)
-    assert looks_of(of_sizes, targets, partings) == 3 * MANY
-    assert len(kinetic.get_legend().get_texts()) == MANY
+    runs = pd.DataFrame(
+        {"gamma": sizes, "series": "kinetic", "cpu_seconds": 1.0, "error": 0.1}, columns=accuracy.COLUMNS
+    )
+    accuracy.draw_errors(kinetic, runs, runs[:0])
+    assert len(points(of_sizes)) == len(kinetic.get_lines()) == len(kinetic.texts) == MANY
     cases = [momentum.Case(rule, 0.1 * size) for rule in ("rotation", "reversal", "mine") for size in sizes]
     assert {*momentum.looks(cases)} == {*cases}
     plt.close("all")

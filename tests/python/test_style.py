@@ -1,5 +1,6 @@
 """Fonts, bands and axes of the figures, whose labels and colours follow rcParams."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib as mpl
@@ -7,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib import font_manager
+from matplotlib.text import Text
 
 from workflow.lib import style
 
@@ -37,6 +39,24 @@ def test_a_band_reaches_one_error_to_either_side_and_a_second_axis_has_its_facto
     style.second_axis(axes, 10, "tenths")
     figure.canvas.draw()
     np.testing.assert_allclose(axes.child_axes[0].get_ylim(), (0, 40))
+    plt.close(figure)
+
+
+def test_names_of_ends_are_a_line_apart_in_the_order_and_next_to_the_heights_of_the_ends() -> None:
+    """Three ends at almost one height, and three at the limits. Detected mistakes: names that overlap, cross, leave
+    the frame, or move without need."""
+    style.apply()
+    figure, axes = plt.subplots()
+    axes.set(yscale="log", ylim=(1, 1e4), xlim=(0, 1))
+    ends = {"low": 1.0, "c": 99.99, "b": 100.0, "a": 100.01, "next": 9999.0, "top": 1e4}
+    style.name_ends(axes, [(name, 1.0, ends[name], style.BLUE) for name in sorted(ends)])
+    figure.canvas.draw()
+    texts = {text.get_text(): text for text in axes.texts}
+    boxes = [Text.get_window_extent(texts[name]) for name in ends]  # without the leader
+    assert all(box.y1 < above.y0 for box, above in pairwise(boxes))
+    assert min(box.x0 for box in boxes) > axes.bbox.x1
+    heights = [texts[name].get_position()[1] for name in ("low", "b", "top")]
+    np.testing.assert_allclose(heights, [0, 0.5, 1], atol=1e-4)
     plt.close(figure)
 
 

@@ -48,6 +48,8 @@ WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 # Lines with this zorder or less are no data: they may end outside of the frame.
 GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
+LINE_OF_TEXT = 0.13  # inches from label to label
+
 POINTS: Look = {
     "linestyle": "none",
     "capsize": 1.5,
@@ -112,6 +114,27 @@ def by_gamma(gammas: Iterable[str]) -> dict[str, tuple[str, str]]:
 def name_point(axes: Axes, name: str, point: tuple[float, Any], lift: tuple[int, int], **look: Any) -> None:
     """Writes a name beside a point, at a distance in points."""
     axes.annotate(name, point, lift, textcoords="offset points", size=label_size(), **look)
+
+
+def name_ends(axes: Axes, ends: Iterable[tuple[str, float, float, str]]) -> None:
+    """Writes names to the right of points, or of the frame if one is next to it, as near to their heights as
+    the size of the text allows. ends: name, x, y, colour. Limits of the axes must not change later."""
+    from scipy.optimize import isotonic_regression  # noqa: PLC0415  0.2 s, which most panels do not need
+
+    axes.get_xlim()  # updates the limits
+    in_frame = axes.transScale + axes.transLimits
+    placed = sorted((*in_frame.transform((x, y))[::-1], name, color) for name, x, y, color in ends)
+    if not placed:
+        return
+    heights, right = np.array([end[0] for end in placed]), max(end[1] for end in placed)
+    left = 0.04 + (1 if right > 0.9 else right)
+    inches = axes.bbox.transformed(axes.figure.dpi_scale_trans.inverted()).height
+    apart = LINE_OF_TEXT / inches * np.arange(len(placed))
+    shifted = np.clip(isotonic_regression(heights - apart).x, 0, max(0, 1 - apart[-1])) + apart
+    for (height, x, name, color), text in zip(placed, shifted, strict=True):
+        leader = {"arrowstyle": "-", "linewidth": 0.5, "color": color, "shrinkA": 0, "shrinkB": 0}
+        look: Look = {"color": color, "size": label_size(), "va": "center", "arrowprops": leader}
+        axes.annotate(name, (x, height), (left, text), "axes fraction", annotation_clip=False, **look)
 
 
 def band(axes: Axes, x: ArrayLike, value: ArrayLike, error: ArrayLike, color: str) -> None:
