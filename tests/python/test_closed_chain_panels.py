@@ -61,7 +61,7 @@ def test_fig06() -> None:
         for bin_ in pairwise(edges)
     ]
     np.testing.assert_allclose(exact, averages, rtol=1e-9)
-    exponents = "−3.000(30) and −2.000(20) in the shaded windows (10 times earlier: −1.970(20))"
+    exponents = "−3.000(30) and −2.000(20) in the shaded windows"
     assert f"they are {exponents}" in caption
 
 
