@@ -90,7 +90,7 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
             drift, error = table.centre_of_mass_variance, table.centre_of_mass_variance_error
-            above.plot(table.time, drift, color=look["color"], zorder=1, label="its centre of mass")
+            above.plot(table.time, drift, color=look["color"], zorder=1)
             style.band(above, table.time, drift, error, look["color"])
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
@@ -105,5 +105,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$")
     below.set_ylim(bottom=min(0.8, below.get_ylim()[0]))
-    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    above.plot([], [], color="grey", label="centre of mass")
+    handles, labels = above.get_legend_handles_labels()
+    figure.legend(handles[::-1], labels[::-1], loc="outside upper left", ncols=2)
     return figure, pd.concat(tables), caption(results, tables)
