@@ -1,5 +1,6 @@
 """Fonts, bands and axes of the figures, whose labels and colours follow rcParams."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -72,3 +73,15 @@ def test_labels_and_colours_follow_the_parameters_of_matplotlib() -> None:
     style.apply()
     assert mpl.colors.to_hex(style.SKY) == "#56b4e9"
     assert style.label_size() == 8
+
+
+@pytest.mark.parametrize("sizes", [(50, 55, 60), (2, 4, 8, 16), [2**k for k in range(2, 12)]])
+def test_a_size_axis_has_numbers_at_its_sizes(sizes: Sequence[int]) -> None:
+    """Detected mistake: ticks at powers of two only, of which there are none between 50 and 60."""
+    _, axes = plt.subplots()
+    axes.plot(sizes, sizes)
+    style.against_size(axes, sizes)
+    ticks = [int(text.get_text()) for text in axes.get_xticklabels()]
+    assert 3 <= len(ticks) <= style.MOST_TICKS
+    assert {*ticks} <= {*sizes}
+    plt.close("all")

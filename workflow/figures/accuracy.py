@@ -145,7 +145,7 @@ def draw_costs(axes: Axes, kappa: pd.DataFrame) -> None:
         axes.plot(part.cells, part.cost_without_control_variates, ":", color=color)
     axes.plot([], [], ":", color="grey", label="without control variates")
     axes.set(yscale="log", ylabel=r"CPU seconds for 1 % of $\kappa$")
-    style.against_size(axes)
+    style.against_size(axes, kappa.cells)
     axes.legend()
 
 

@@ -47,7 +47,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     look = style.points("o", style.BLUE, label=SIMULATION)
     axes.errorbar(points.cells, points.amplitude, points.error, **look)
     axes.plot(line.index, line, color=style.BLACK, label=MEAN_FIELD)
-    axes.set(xscale="log", yscale="log")
+    style.against_size(axes, points.cells)
+    axes.set_yscale("log")
     axes.margins(y=0.25)  # room for the legend
     readings: list[tuple[float, str, style.Look]] = [
         (1, r"of $\max F$", {}),
@@ -58,9 +59,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
             axes.axhline(height * scale, **style.GUIDE | look)
             place: style.Look = {"transform": axes.get_yaxis_transform(), "va": "bottom"}
             axes.text(0.03, height * scale, f"{name} {reading}", size=style.label_size(), **place, **look)
-    axes.set(xlabel="number of cells $N$", ylabel=r"$|F_N - F|\,/\,\max F$")
+    axes.set(ylabel=r"$|F_N - F|\,/\,\max F$")
     style.second_axis(axes, printed, r"$|F_N - F|$ at $\int F\,dp = 1$")
-    style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper right")
 
 

@@ -14,7 +14,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, listed, parameters
+from workflow.lib.caption import BATHS, parameters
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -132,12 +132,6 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xlim(low, high + 0.45 * (high - low))  # space for the numbers
 
 
-def jumps_of(part: pd.DataFrame) -> str:
-    """Jumps at both ends of a chain, with errors."""
-    ends = part.drop_duplicates("x")
-    return listed(map(format_with_error, ends.jump, ends.jump_error))
-
-
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in measured(results) if run_parameters.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
@@ -147,11 +141,11 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     else:
         claim = "follows the kinetic equation, with a jump at p = 0"
     still = main[main.nu_left == main.nu_right]
-    equal = " (open: equal rates)" if len(still) else ""
+    equal = ", also at equal rates" if len(still) else ""
     return f"""
         The paper finds that F_N(p, x) behind the end scatterers {claim}. Here ({parameters([chain], "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig04"])})
         it differs from the kinetic equation (black) by up to {math.ceil(10 * far) / 10:g} % of max F.
-        (d) Jumps: {jumps_of(unequal)}{equal}."""
+        (d) Jumps at p = 0{equal}."""
 
 
 @plots(

@@ -114,7 +114,7 @@ def draw(results: Sequence[Result]) -> Parts:
         above.plot(line.cells, line.mean_field_kappa, "--", color=color, label=label)
         below.plot(line.middle, line.mean_field_exponent_to_next, "--", color=color)
     style.cross_out(above, table.cells, table.kappa, ~table.usable)
-    style.against_size(below)
+    style.against_size(below, table.cells)
     above.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
     below.set_ylabel(r"$d\ln\kappa/d\ln N$")
     above.margins(x=0.13)  # room for the names of the guides

@@ -42,6 +42,8 @@ DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 
 # Markers and colours of series of points.
 LOOKS = [("o", BLUE), ("s", VERMILLION), ("^", GREEN), ("D", ORANGE), ("v", SKY)]
 
+MOST_TICKS = 6  # with numbers of up to four digits in a column
+
 # Style of the shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
@@ -188,11 +190,12 @@ def label_within_decades(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def against_size(axes: Axes) -> None:
-    """A logarithmic x axis of numbers of cells, with decimal ticks at powers of two."""
+def against_size(axes: Axes, sizes: Iterable[int]) -> None:
+    """A logarithmic x axis of numbers of cells, with ticks at these, or at every second or third of many."""
+    known = sorted({*sizes})
+    ticks = known[:: -(-len(known) // MOST_TICKS) or 1]
     axes.set(xscale="log", xlabel="number of cells $N$")
-    axes.xaxis.set_major_locator(LogLocator(base=2, numticks=8))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.set_xticks(ticks, [f"{size:g}" for size in ticks], minor=False)
     axes.xaxis.set_minor_locator(NullLocator())
 
 

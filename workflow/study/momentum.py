@@ -104,7 +104,7 @@ def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) 
         part = of_case(chains, case)
         axes.errorbar(part.cells, part.kappa, part.kappa_error, label=case.label, **points)
     style.cross_out(axes, chains.cells, chains.kappa, ~chains.usable)
-    style.against_size(axes)
+    style.against_size(axes, chains.cells)
     axes.set(yscale="log", ylabel=r"$\kappa$")
 
 
