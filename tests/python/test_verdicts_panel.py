@@ -182,7 +182,7 @@ def test_rows_are_in_the_order_of_the_figures() -> None:
 def test_the_table_is_a_csv_and_statements_are_typeset() -> None:
     table = verdicts.tabulate([*JUDGED, MISSING], {("inside", "literal"): "reproduced"})
     assert '"position": "1"' in as_csv(table, verdicts.UNITS)
-    assert "3 reproduced, 3 contradicted, 5 undecided" in verdicts.caption(table)
+    assert "3 of 11 readings hold, 3 do not, 5 are open" in verdicts.caption(table)
     assert len(verdicts.caption(table).split()) <= 70
     for claim in read_claims(ROOT):
         text = verdicts.typeset(claim["short"] or claim["statement"])

@@ -2,10 +2,13 @@
 
 import base64
 import csv
+import json
 import re
 import shutil
 import subprocess
+import zlib
 from collections import defaultdict
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -29,10 +32,10 @@ IDS = {
 
 
 def ids_and_links(text: str) -> tuple[set[str], list[str]]:
-    """Ids, which are unique, and targets of links in a page."""
-    ids = re.findall(r'\bid="([^"]*)"', text)
+    """Ids, which are unique, and targets of links in a page, HTML or Markdown."""
+    ids = re.findall(r'\bid="([^"]*)"', text) + [one.lower() for one in re.findall(r"^## (\w+)$", text, re.M)]
     assert len(ids) == len({*ids})
-    return {*ids}, re.findall(r'<a [^>]*href="([^"]*)"', text)
+    return {*ids}, re.findall(r'<a [^>]*href="([^"]*)"', text) + re.findall(r"\]\(([^)]*)\)", text)
 
 
 @pytest.fixture(scope="module")
@@ -75,41 +78,76 @@ def test_the_report_is_complete_and_loads_nothing(smoke: Path) -> None:
 
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-FRAME = """<iframe src="report.html" width="390" height="844"></iframe>
+HEADLESS = [CHROMIUM, "--headless", "--no-sandbox", "--hide-scrollbars", "--virtual-time-budget=60000"]
+FRAME = """<iframe src="report.html" width="{width}" height="844"></iframe>
 <script>addEventListener("message", event => document.body.textContent = event.data)</script>"""
-PROBE = """<script>addEventListener("load", () => parent.postMessage(
-  document.documentElement.scrollWidth - document.documentElement.clientWidth + " " + (
-    [...document.images].every(one => one.complete && one.naturalWidth > 0 && Math.abs(one.clientWidth - one.naturalWidth) < 2) &&
-    [...document.querySelectorAll(".narrow .picture")].every(one => one.scrollWidth <= one.clientWidth)), "*"))</script>"""
+PROBE = """<script>addEventListener("load", () => {
+const size = one => parseFloat(getComputedStyle(one).fontSize), page = document.documentElement;
+const figures = [...document.images].filter(one => one.offsetParent).map(one => [one.closest("figure").id, one.clientWidth,
+  one.clientWidth / one.naturalWidth, one.parentElement.scrollWidth - one.parentElement.clientWidth,
+  size(one.closest("figure").querySelector("figcaption"))]);
+parent.postMessage(JSON.stringify([page.scrollWidth - page.clientWidth, page.scrollHeight, figures]), "*") })</script>"""
+
+
+def laid_out(page: str, folder: Path, width: int) -> tuple[int, int, dict[str, list[float]]]:
+    """A page in a frame, without scroll bars as on phones, read by a script: pixels beyond its width; its height; for every visible picture
+    its width, its scale, how far it scrolls, and the size of the text beside it."""
+    allowed = re.sub(r"<meta http-equiv=.Content-Security-Policy.*?>", "", page)
+    (folder / "report.html").write_text(allowed + PROBE)
+    (folder / "frame.html").write_text(FRAME.format(width=width))
+    command = [*HEADLESS, f"--window-size={width + 100},1000", "--dump-dom", folder / "frame.html"]
+    dom = subprocess.check_output(command, text=True, stderr=subprocess.DEVNULL)
+    beyond, height, figures = json.loads(re.search(r"\[.*\]", dom)[0])
+    return beyond, height, {name: numbers for name, *numbers in figures}
 
 
 @pytest.mark.long
 @pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
 def test_the_report_on_a_narrow_screen(smoke: Path, tmp_path: Path) -> None:
-    """In a frame of 390 pixels, without scroll bars as on phones, with a script that reads what is beyond its width. Detected mistakes: a
-    picture or a table is wider than the screen; a picture has another scale; a narrow one does not fit."""
+    """Detected mistakes: a picture or a table is wider than the screen; pictures are smaller than in print; the picture of the verdicts
+    without its results; details are open."""
     page = (smoke / "figures/smoke/report.html").read_text()
-    allowed = re.sub(r"<meta http-equiv=.Content-Security-Policy.*?>", "", page)
-    found = []
-    wide = allowed.replace("<body>", '<body><div style="width: 500px">wide</div>')
-    scaled = allowed.replace("</style>", ".wide img { width: 100%; }</style>")
-    for text in (allowed, wide, scaled):
-        (tmp_path / "report.html").write_text(text + PROBE)
-        (tmp_path / "frame.html").write_text(FRAME)
-        command = [
-            CHROMIUM,
-            "--headless",
-            "--no-sandbox",
-            "--hide-scrollbars",
-            "--virtual-time-budget=60000",
-            "--dump-dom",
-        ]
-        found.append(
-            subprocess.check_output([*command, tmp_path / "frame.html"], text=True, stderr=subprocess.DEVNULL)
-        )
-    assert ">0 true<" in found[0]
-    assert ">0 true<" not in found[1]
-    assert ">0 true<" not in found[2]
+    beyond, height, figures = laid_out(page, tmp_path, 390)
+    assert beyond == 0
+    assert height < 25_000
+    assert {*figures} == {*PLAN} - {"verdicts"}
+    assert min(scale for _, scale, *_ in figures.values()) > 0.99
+    assert [figures[name][2] for name in ("fig03", "fig05", "fig08")] == [0, 0, 0]
+    wide = page.replace("<body>", '<body><div style="width: 500px">wide</div>')
+    assert laid_out(wide, tmp_path, 390)[0] > 0
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
+def test_pictures_of_the_report_are_as_legible_as_its_text(smoke: Path, tmp_path: Path) -> None:
+    """Letters have 8 to 9 points in print, those of the verdicts 7.5; CSS has 96 pixels per inch."""
+    beyond, _, figures = laid_out((smoke / "figures/smoke/report.html").read_text(), tmp_path, 1400)
+    assert beyond == 0
+    assert {*figures} == {*PLAN}
+    for name, (width, scale, scrolls, text) in figures.items():
+        assert width >= 480, name
+        assert scrolls == 0, name
+        for points in (7.5,) if name == "verdicts" else (8, 9):
+            assert 1 / 1.3 <= scale * points * 96 / 72 / text <= 1.3, name
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
+def test_the_report_is_printed_black_on_white(smoke: Path, tmp_path: Path) -> None:
+    """From a dark browser, without pictures: all fills of its PDF are black, white or, for lines, grey."""
+    page = (smoke / "figures/smoke/report.html").read_text()
+    (tmp_path / "report.html").write_text(re.sub(r"<img [^>]*>", "", page))
+    dark = [*HEADLESS, "--blink-settings=preferredColorScheme=0", f"--print-to-pdf={tmp_path / 'report.pdf'}"]
+    subprocess.run([*dark, tmp_path / "report.html"], check=True, stderr=subprocess.DEVNULL)
+    streams = re.findall(
+        rb"stream\r?\n(.*?)\r?\nendstream", (tmp_path / "report.pdf").read_bytes(), re.DOTALL
+    )
+    colors = set()
+    for stream in streams:
+        with suppress(zlib.error):
+            colors |= {*re.findall(rb"([\d.]+) ([\d.]+) ([\d.]+) rg\b", zlib.decompress(stream))}
+    assert all(len({*color}) == 1 for color in colors)
+    assert {round(float(red), 2) for red, *_ in colors} == {0, 0.79, 1}  # text, lines, background
 
 
 def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:
@@ -119,8 +157,11 @@ def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:
     assert str(ROOT) not in text
     ids, links = ids_and_links(text)
     assert ids >= IDS
+    assert ids >= {"claims", "figures", "symbols"}
+    assert len(text.split()) <= 4000
     for link in [*links, *re.findall(r'<img [^>]*src="([^"]*)"', text)]:
-        assert link.startswith("https://doi.org/") or link in names or link.strip("#") in ids, link
+        inside = link.strip("#") in ids if link.startswith("#") else (gallery / link).exists()
+        assert inside or link.startswith("https://doi.org/"), link
     for panel in PLAN:
         small, original = gallery / f"{panel}.png", ROOT / f"figures/smoke/{panel}.png"
         assert read_identity_line(small.read_bytes()) == read_identity_line(original.read_bytes())

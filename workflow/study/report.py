@@ -7,7 +7,7 @@ import base64
 import re
 import sys
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,19 +23,19 @@ from workflow.render.files import format_os_error, write_atomically
 from workflow.render.record import NUMBERS, identity_line, read_record
 from workflow.render.save import commit, reduced, write_product
 from workflow.study import typeset
-from workflow.study.judge import KINDS, Judgement, changed, judge_all, of_release
+from workflow.study.judge import Judgement, changed, judge_all, label, of_release
 from workflow.study.results import Results
 from workflow.study.verdict import Outcome
 
 GALLERY = "docs/gallery"
 SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
 MOST_NUMBERS = 12  # numbers of a claim in the report; of more, only the one that is closest to the band's edge or farthest outside
-INCH = 96  # pixels, as in CSS: one scale for all pictures
-SINGLE, DOUBLE = 4, 7  # inches: widest picture beside which stands a caption in half a page, or in a page
+INCH = 96  # pixels, as in CSS
+NARROW, MEDIUM = 4, 7  # inches: widest pictures of which two share a row, or which has its caption beside it
 
 
 def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release: bool) -> bytes:
-    """The page. root: folder of the project; release: the gallery's page, with pictures in files beside it.
+    """The report, or the gallery's page, with pictures in files beside it. root: folder of the project.
     Raises OSError."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -45,21 +45,20 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters["typeset"] = typeset.typeset
+    environment.filters |= {"typeset": typeset.typeset, "markdown": typeset.markdown}
     selection = plan.selection
     found = {} if release else of_release(selection.name, root)
-    rows = [shown(judgement) for judgement in judgements]
-    for row in rows:
-        row["release"] = found.get((row["numbers"], row["kind"])) if row["outcome"] == "undecided" else None
-    page = environment.get_template("page.html.j2").render(
-        release=release,
+    rows = [shown(judgement, found) for judgement in judgements]
+    figures = defaultdict(list)
+    for row in sorted(rows, key=lambda row: str(row["panel"][:5])):  # fig10 after fig09
+        figures[typeset.figure_of(row["panel"])].append(row)
+    page = environment.get_template("gallery.md.j2" if release else "report.html.j2").render(
         quality=selection.name,
         effort=selection.arguments,
-        kinds=KINDS,
-        outcomes=[*Outcome],
+        counts={outcome.value: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
         rows=rows,
-        figures=by_figure(rows),
-        row={f"{row['numbers']} {row['kind']}": row for row in rows},
+        figures=figures,
+        claims={row["name"]: row for row in rows},
         panels=[context(panel, root, release=release) for panel in plan],
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
@@ -70,15 +69,13 @@ def context(panel: Panel, root: Path, *, release: bool) -> dict[str, Any]:
     """A panel with its picture, and what it is made from, for the template. Raises OSError."""
     record = read_record(root / panel.record_path)
     content = (root / f"{panel.stem}.svg").read_bytes()
-    picture, (width, height) = base64.b64encode(content).decode(), inches(content)
-    runs = {} if release else runs_of([panel])
+    width, runs = inches(content), {} if release else runs_of([panel])
     return record | {
         "name": panel.name,
         "study": panel.study,
-        "size": "narrow" if width <= SINGLE else "medium" if width <= DOUBLE else "wide",
+        "size": "narrow" if width <= NARROW else "medium" if width <= MEDIUM else "wide",
         "width": round(width * INCH),
-        "height": round(height * INCH),
-        "address": f"{panel.name}.png" if release else f"data:image/svg+xml;base64,{picture}",
+        "picture": base64.b64encode(content).decode(),
         "runs": [
             (panel_of(path), f"{run.program} {run.options_text}", cpu_seconds(root / path))
             for path, run in runs.items()
@@ -87,54 +84,33 @@ def context(panel: Panel, root: Path, *, release: bool) -> dict[str, Any]:
     }
 
 
-def inches(picture: bytes) -> tuple[float, float]:
-    """Width and height of an SVG, which states them in points."""
-    found = re.search(rb'width="([\d.]+)pt" height="([\d.]+)pt"', picture)
+def inches(picture: bytes) -> float:
+    """Width of an SVG, which states it in points."""
+    found = re.search(rb'width="([\d.]+)pt"', picture)
     if not found:
         raise FormatError(
             "an SVG of the panels states no size in points: remove the figures and make them again"
         )
-    return float(found[1]) / 72, float(found[2]) / 72
+    return float(found[1]) / 72
 
 
-def by_figure(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The answer on every figure of the paper, with the rows that need an account. The outcome of a statement
-    is that of its intended meaning, where it has one."""
-    figures = defaultdict(list)
-    for row in rows:
-        if named := re.match(r"fig(\d+)", row["panel"]):
-            figures[int(named[1])].append(row)
-    answers = []
-    for number, own in sorted(figures.items()):
-        meant = {row["numbers"]: row for row in own}  # intended meanings come after literal statements
-        wrong = [row for row in meant.values() if row["outcome"] == Outcome.CONTRADICTED]
-        literal = [row for row in own if row["outcome"] == Outcome.CONTRADICTED and row not in wrong]
-        undecided = [row for row in meant.values() if row["outcome"] == Outcome.UNDECIDED]
-        if wrong:
-            outcome, answer = Outcome.CONTRADICTED, "differs"
-        elif not undecided:
-            outcome, answer = Outcome.REPRODUCED, "reproduced" + ", but not literally" * bool(literal)
-        else:
-            outcome = Outcome.UNDECIDED
-            answer = "undecided" if len(undecided) == len(meant) else "partly undecided"
-        for row in literal:
-            row["meant"] = (
-                meant[row["numbers"]] if meant[row["numbers"]]["outcome"] == Outcome.REPRODUCED else None
-            )
-        told = {"rows": wrong + literal, "undecided": undecided}
-        answers.append({"number": number, "outcome": outcome, "answer": answer} | told)
-    return answers
-
-
-def shown(judgement: Judgement) -> dict[str, Any]:
+def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[str, Any]:
     """A row of the table of claims with its verdict, for the template. least, most: its smallest and
-    largest number."""
-    verdict = judgement.verdict
+    largest number; found: verdicts of the release, shown where this one is undecided."""
+    row, verdict = judgement.row, judgement.verdict
+    first, *others = row["numbers"].lower().split()
+    literal = row["kind"] == "literal"
+    anchor = first if literal else f"{first}-intended"
     numbers = sorted(verdict.numbers, key=lambda number: number.value)
     listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.decisive]
-    return dict(judgement.row) | {
+    return dict(row) | {
+        "anchor": anchor,
+        "ids": [anchor, *others] if literal else [anchor],
+        "name": row["numbers"] if literal else f"{row['numbers']} intended",
+        "short": label(row),
         "outcome": verdict.outcome,
         "sign": SIGNS[verdict.outcome],
+        "release": found.get((row["numbers"], row["kind"])) if verdict.outcome is Outcome.UNDECIDED else None,
         "band": typeset.acceptance(verdict.band),
         "value": typeset.value(verdict.decisive) if numbers else "not measured",
         "label": verdict.decisive.label if numbers else "",
@@ -142,12 +118,10 @@ def shown(judgement: Judgement) -> dict[str, Any]:
             (number.label, typeset.value(number), verdict.outcome_of(number).value) for number in listed
         ],
         "omitted": len(numbers) - len(listed),
-        "others": len(numbers) - 1,
         "outside": sum(verdict.outcome_of(number) is Outcome.CONTRADICTED for number in numbers),
         "least": typeset.value(numbers[0]) if numbers else "",
         "most": typeset.value(numbers[-1]) if numbers else "",
         "missing": judgement.missing,
-        "meant": None,
     }
 
 

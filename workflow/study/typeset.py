@@ -23,6 +23,16 @@ def typeset(text: str) -> Markup:
     return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
 
 
+def markdown(text: str) -> Markup:
+    """Text with the same HTML for Markdown, also in its tables."""
+    return Markup(re.sub(r"([|*`\[\]])", r"\\\1", typeset(text)))
+
+
+def figure_of(panel: str) -> str:
+    """The figure of the paper that a panel belongs to."""
+    return f"Fig. {int(panel[3:5])}" if panel.startswith("fig") else "Text"
+
+
 def acceptance(band: Band) -> str:
     low, high = (f"{edge:g}".replace("-", MINUS) for edge in (band.low, band.high))
     if math.isinf(band.high):

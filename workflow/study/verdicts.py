@@ -20,6 +20,7 @@ from workflow.lib.figure import Parts
 from workflow.lib.load import Result
 from workflow.study.judge import Judgement, judge_all, label, of_release
 from workflow.study.results import Results
+from workflow.study.typeset import figure_of
 from workflow.study.verdict import Band, Outcome
 
 TITLE = "Verdicts on the statements of the paper"
@@ -127,7 +128,7 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
     line: style.Look = {"transform": frame, "color": "0.8", "linewidth": 0.5, "clip_on": False}
     former = ""
     for y, row in table.iterrows():
-        group = f"Fig. {int(row.panel[3:5])}" if row.panel.startswith("fig") else "Text"
+        group = figure_of(row.panel)
         if group != former:
             axes.text(-1.58, y, group, weight="bold", **across)
             axes.plot([-1.58, 1.06], [y - 0.5] * 2, **line)
@@ -137,10 +138,10 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame) -> str:
-    counts = ", ".join(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
+    hold, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
     release = " Small symbols: release." if "release" in table else ""
     return f"""
-        Every line is a statement of the paper, literal or in its intended meaning (open symbols): {counts}. Intervals of the number that decides hold jointly at 95 % confidence and
+        Every line is a reading of a statement of the paper: literal, or its intended meaning (hollow symbols). {hold} of {len(table)} readings hold, {fail} do not, {undecided} are open. Intervals of the number that decides hold jointly at 95 % confidence and
         include bounds on systematic errors. Grey: acceptance band; if it has one edge, the unit is half the interval. Arrows: numbers beyond the frame.{release}"""
 
 
@@ -165,6 +166,8 @@ def plotted(table: pd.DataFrame) -> Parts:
     axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
     looks = [look_of(outcome.value, "literal") | {"label": outcome.value} for outcome in Outcome]
     handles = [Line2D([], [], **one) for one in looks]
-    handles.append(Line2D([], [], **look_of("reproduced", "intended") | {"label": "open: intended meaning"}))
+    handles.append(
+        Line2D([], [], **look_of("reproduced", "intended") | {"label": "hollow: intended meaning"})
+    )
     figure.legend(handles=handles, loc="upper center", ncols=4, borderpad=0.2)
     return figure, table, caption(table)
