@@ -44,7 +44,7 @@ def judged(verdict: str) -> list[Judgement]:
 @pytest.mark.parametrize(
     ("verdict", "answer"),
     [
-        ("reproduced", "The title is right: heat is superdiffusive at all times reached."),
+        ("reproduced", "The title is right: heat is superdiffusive at the latest times reached."),
         ("contradicted", "The title is wrong"),
         ("undecided", "Whether the title is right is open"),
     ],
