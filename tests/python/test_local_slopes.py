@@ -52,9 +52,9 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
 @pytest.mark.parametrize(
     ("speeds", "phrase"),
     [
-        ([np.nan, 400.0, 350.0, 300.0, np.nan], "falls from 400(10) to 300(10)"),
-        ([400.0, 250.0, 300.0], "falls from 400(10) to 250(10) at t = 2, and is then 300(10)"),
-        ([300.0, 350.0, 400.0], "rises from 300(10) to 400(10)"),
+        ([np.nan, 400.0, 350.0, 300.0, np.nan], "falls from 400(10) to 300(10) in the end"),
+        ([400.0, 250.0, 300.0], "falls from 400(10) to 300(10) in the end"),
+        ([300.0, 350.0, 400.0], "rises from 300(10) to 400(10) in the end"),
         (
             [400.0, 410.0, 390.0],
             "is 400.0(2.0) on average",

@@ -10,7 +10,7 @@ from workflow.figures import accuracy
 from workflow.lib.figure import NoValueError
 from workflow.lib.load import Result
 
-KAPPA = {N: (f"chain_cells={N}", N / 4, 0.01 * N**0.5, {"cells": N}) for N in (4, 8, 16, 32, 64, 128)}
+KAPPA = {N: (f"chain_cells={N}", N / 4, 0.01 * N**0.5, {"cells": N}) for N in (4, 8, 16, 32, 60, 128)}
 ERRORS = [("cheap", 1.0, 0.001), ("typical", 2.0, 0.01), ("dear", 3.0, 0.1)]
 
 
@@ -43,7 +43,7 @@ def test_lines_of_accuracy_pass_through_the_runs_with_the_slope_of_the_number_of
     runs += [run(*each, target="mu") for each in ERRORS] + [run("wild", 1.0, 0.8, target="alpha")]
     runs += [run("mine", 5.0, 0.03, target="my_number", program="mine")]
     (axes, _), _, caption = draw("accuracy", runs)
-    expected = [KAPPA[cells][1:3] for cells in (16, 64, 128)] + [(2.0, 0.01), (5.0, 0.03)]
+    expected = [KAPPA[cells][1:3] for cells in (16, 60, 128)] + [(2.0, 0.01), (5.0, 0.03)]
     straight = [(x, y) for x, y in lines(axes) if len(x) == 2]
     assert len(straight) == len(expected)
     for time, error in expected:
@@ -52,7 +52,7 @@ def test_lines_of_accuracy_pass_through_the_runs_with_the_slope_of_the_number_of
     assert {*texts(axes)} == {
         r"$\mu$",
         "my number",
-        *(rf"$\kappa$, $N = {cells}$" for cells in (16, 64, 128)),
+        *(rf"$\kappa$, $N = {cells}$" for cells in (16, 60, 128)),
     }
     assert "costs 64 s at N = 16 and 4100 s at N = 128 (γ = N)" in caption
     assert "kinetic" not in caption

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import format_number, listed, parameters
 from workflow.lib.figure import Parts, plots
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.paper import PAPER
 
@@ -97,8 +98,10 @@ def above_exact(table: pd.DataFrame, result: Result) -> str:
     # Weights by the counts that the exact density predicts: those observed would favour bins that are low.
     weight = tail.tau * exact
     mean = np.average(tail.density / exact, weights=weight)
+    error = np.hypot.reduce(tail.tau * tail.density_error) / weight.sum()
     expected = 50 * np.pi / int(result.parameters["particles_per_cell"])
-    return f" At σ = 0 the tail is {100 * (mean - 1):.2g} % above n → ∞ (expected: {expected:.2g} %)."
+    excess = format_with_error(100 * (mean - 1), 100 * error)
+    return f" At σ = 0 the tail is {excess} % above n → ∞ (expected: {expected:.2g} %)."
 
 
 def caption(results: Sequence[Result], young: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
