@@ -82,4 +82,4 @@ def test_the_excess_of_waiting_times_is_that_of_the_tail() -> None:
     table.loc[3, "unsure"] = True
     sentence = fig06.above_exact(table, Result(ROOT, options, {}, {}))
     assert sentence.startswith(" At σ = 0 the tail is 14.0(1.0) % above")
-    assert sentence.endswith("7.9 %.")
+    assert sentence.endswith("7.9 %).")
