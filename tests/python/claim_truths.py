@@ -210,7 +210,7 @@ def falling(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
     return HEIGHT + np.where(outgoing, part, 3)
 
 
-claim("fluxes.tends_to_kinetic", {"fig03_inset": {"flux": falling}}, [-0.9] * 3)
+claim("fluxes.tends_to_kinetic", {"fig03_inset": {"flux": falling}}, [-0.9])
 
 
 # F_30 minus the solution of the kinetic equation: it differs from bin to bin and between the ends.

@@ -3,11 +3,12 @@
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from workflow.lib.fit import fit_power, local_exponents
+from workflow.lib.fit import PowerLaw, fit_power, local_exponents
 from workflow.lib.identity import panel_of
 from workflow.lib.load import Index, Result
 from workflow.study.verdict import Estimate
@@ -97,29 +98,44 @@ def exponent_between(first: Estimate, last: Estimate, factor: float, label: str)
     return Estimate(label, float(slope[0]), float(error[0]), min(first.dof, last.dof))
 
 
-def octaves(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
-    """Exponents between neighbouring sizes from `first` on, which a statement of a power law means: each has to
-    be in its band. So a law that bends by more than the band is contradicted however wide the range is, and one
-    that bends by less is not, however precise the numbers are; and a bend is no error of an exponent. Raises
-    MissingError if there are not two octaves. An octave of which an end is missing is unknown: fewer sizes decide
-    less."""
+def power_law(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
+    """The numbers of a statement that a power law holds from size `first` on. If the sizes follow one power, its
+    exponent; if they reject it, the exponent of every octave: so a law that bends by more than the band is
+    contradicted, one that bends by less is not, however precise the numbers are, and a bend is no error of an
+    exponent. An octave without one of its ends is unknown: fewer sizes decide less. Raises MissingError if there
+    are not two octaves."""
     sizes = [first, *(size for size in sorted(values) if size > first)]
     if sizes[-1] < 4 * first:
         raise MissingError(f"no stationary sizes over two octaves, from {first} on")
-    numbers = []
+    octaves = []
     for a, b in pairwise(sizes):
-        name = f"{label}, N = {a} to {b}"
         known = a in values and b <= 2 * a
-        exponent = exponent_between(values[a], values[b], b / a, name) if known else None
-        numbers.append(exponent or Estimate(name, math.nan, math.nan))
-    return numbers
+        ends = f"N = {a} to {b}"
+        octaves.append(
+            exponent_between(values[a], values[b], b / a, ends)
+            if known
+            else Estimate(ends, math.nan, math.nan)
+        )
+    if any(math.isnan(octave.value) for octave in octaves):
+        return [replace(octave, label=f"{label}, {octave.label}") for octave in octaves]
+    law, exponent = _fit({size: values[size] for size in sizes}, label)
+    if not law.rejected:
+        return [replace(exponent, label=f"{exponent.label}, one power: p = {law.p_value:.2g}")]
+    return [
+        replace(octave, label=f"{label}, {octave.label}, no power: p = {law.p_value:.0e}")
+        for octave in octaves
+    ]
 
 
 def power(values: Mapping[int, Estimate], label: str) -> Estimate:
     """Exponent of a power law fitted to independent numbers by size. Raises MissingError for fewer than two."""
     if len(values) < 2:
         raise MissingError("fewer than two stationary sizes")
+    return _fit(values, label)[1]
+
+
+def _fit(values: Mapping[int, Estimate], label: str) -> tuple[PowerLaw, Estimate]:
     points = np.array([(point.value, point.error, point.dof) for point in values.values()])
     law = fit_power([*values], *points.T)
     label = f"{label}, N = {min(values)} to {max(values)}"
-    return Estimate(label, law.exponent, law.error, float(points[:, 2].min()))
+    return law, Estimate(label, law.exponent, law.error, float(points[:, 2].min()))

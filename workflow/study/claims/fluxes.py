@@ -9,7 +9,7 @@ from scipy.special import erf
 
 from workflow.lib.load import Quantity, Result
 from workflow.physics.fluxes import SIMULATION, amplitudes, at, at_zero, deviations
-from workflow.study.results import Results, by_size, combination, estimate, octaves, ratio
+from workflow.study.results import Results, by_size, combination, estimate, power_law, ratio
 from workflow.study.verdict import Estimate, with_systematic
 
 # Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
@@ -148,11 +148,11 @@ def _mean_magnitude(left: Estimate, right: Estimate) -> Estimate:
 
 
 def tends_to_kinetic(data: Results) -> list[Estimate]:
-    """Exponents of F_N - F at p = 0, where it is largest, against N, by octave."""
+    """Exponent of F_N - F at p = 0, where it is largest, against N, or those of its octaves."""
     table, degrees = _finite(data)
     cells = [run.parameters["cells"] for run in by_size(data.results("fig03_inset", "simulation"))]
     central = {size: _mean_magnitude(*_central(_of_size(table, size), degrees)) for size in cells}
-    return octaves(central, 2, "d ln|F_N - F|/d ln N at p = 0")
+    return power_law(central, 2, "d ln|F_N - F|/d ln N at p = 0")
 
 
 def on_top_of_kinetic(data: Results) -> list[Estimate]:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.study.results import MissingError, Results, by_size, combination, estimate, octaves, power
+from workflow.study.results import MissingError, Results, by_size, combination, estimate, power, power_law
 from workflow.study.rings import chain, gas
 from workflow.study.verdict import Estimate
 
@@ -20,13 +20,13 @@ ELASTIC = ("light", "light-long", "light-longest", "dense-longest", "dilute-long
 
 
 def linear(data: Results) -> list[Estimate]:
-    """Exponents of kappa at gamma = 1, by octave."""
-    return octaves(conductivities(data, 1), FIRST, "d ln κ/d ln N, γ = 1")
+    """Exponent of kappa at gamma = 1, or those of its octaves."""
+    return power_law(conductivities(data, 1), FIRST, "d ln κ/d ln N, γ = 1")
 
 
 def cube_root(data: Results) -> list[Estimate]:
-    """Exponents of kappa at gamma = N, by octave."""
-    return octaves(conductivities(data, "N"), FIRST, "d ln κ/d ln N, γ = N")
+    """Exponent of kappa at gamma = N, or those of its octaves."""
+    return power_law(conductivities(data, "N"), FIRST, "d ln κ/d ln N, γ = N")
 
 
 def conductivities(data: Results, gamma: str | int) -> dict[int, Estimate]:
