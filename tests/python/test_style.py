@@ -43,14 +43,14 @@ def test_a_band_reaches_one_error_to_either_side_and_a_second_axis_has_its_facto
     plt.close(figure)
 
 
-def test_names_of_ends_are_a_line_apart_in_the_order_and_next_to_the_heights_of_the_ends() -> None:
+def test_names_of_ends_do_not_overlap() -> None:
     """Three ends at almost one height, and three at the limits. Detected mistakes: names that overlap, cross, leave
     the frame, or move without need."""
     style.apply()
     figure, axes = plt.subplots()
     axes.set(yscale="log", ylim=(1, 1e4), xlim=(0, 1))
     ends = {"low": 1.0, "c": 99.99, "b": 100.0, "a": 100.01, "next": 9999.0, "top": 1e4}
-    style.name_ends(axes, [(name, 1.0, ends[name], style.BLUE) for name in sorted(ends)])
+    style.name_ends(axes, [(name, 0.95, ends[name], style.BLUE) for name in sorted(ends)])
     figure.canvas.draw()
     texts = {text.get_text(): text for text in axes.texts}
     boxes = [Text.get_window_extent(texts[name]) for name in ends]  # without the leader

@@ -156,8 +156,8 @@ def caption(table: pd.DataFrame, lines: pd.DataFrame) -> str:
     if "kinetic" in {*table.series}:
         text += "; those of the kinetic equation fall faster"
     kappa = lines[lines.quantity == "kappa"]
-    costs = [format_number(float(f"{cost:.2g}")) for cost in kappa.cost_of_1_percent]
-    at = [f"{cost} s at N = {cells:g}" for cost, cells in zip(costs, kappa.cells, strict=True)]
+    costs = [float(f"{cost:.2g}") for cost in kappa.cost_of_1_percent]
+    at = [f"{cost:g} s at N = {cells:g}" for cost, cells in zip(costs, kappa.cells, strict=True)]
     ends = [*dict.fromkeys([*at[:1], *at[-1:]])]
     return f"{text}. (b) 1 % of κ costs {listed(ends)} (γ = {kappa.gamma.iloc[0]})." if ends else f"{text}."
 
