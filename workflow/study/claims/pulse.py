@@ -84,7 +84,7 @@ def _way(result: Result, a: int, b: int, label: str) -> Estimate:
 def free_flight(result: Result, k: int, factor: float) -> float:
     """Position of the peak, in cells, `factor` times later than at time k: the maximum of E(y) exp(-y (factor - 1)
     gamma/N) at y = x/factor, with the energy E(y) at time k and mean free path N/gamma. E is exp(cubic) above half of
-    its height, as in the program's fit."""
+    its height, as in the program's fit. Raises MissingError if these are fewer than five cells."""
     profile = result["energy_difference"].mean[k]
     centre = len(profile) // 2
     right, left = profile[centre:], profile[centre::-1]
@@ -92,6 +92,8 @@ def free_flight(result: Result, k: int, factor: float) -> float:
     peak = round(float(result["peak_position"].mean[k]))
     above = folded > folded[peak] / 2
     low, high = peak - int(np.argmin(above[peak::-1])) + 1, peak + int(np.argmin(above[peak:]))
+    if high - low < 5:
+        raise MissingError("the peak has too few cells above half of its height")
     cubic = np.polynomial.Polynomial.fit(np.arange(low, high), np.log(folded[low:high]), 3)
     lost = (factor - 1) * float(result.parameters["gamma"]) / int(result.parameters["cells"])
     highest = minimize_scalar(
