@@ -76,7 +76,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         most.append(f"{format_with_error(far.deviation, far.mu_error)}{names.get(name, f' in {name}')}")
     return f"""
         The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π. (b) Here ({parameters(main, "cells", "particles_per_cell", "temperature", paper=PAPER["fig05"])})
-        μ differs, for |σ| ≤ {format_number(STEEP)}, by up to {listed(most)}. Dashes: the law at the conserved total momentum."""
+        μ differs, for |σ| ≤ {format_number(STEEP)}, by up to {listed(sorted(most, key=len))}. Dashes: the law at the conserved total momentum."""
 
 
 @plots("paper zero-momentum dense", varying="sigma particles_per_cell zero_total_momentum")
