@@ -120,7 +120,7 @@ def test_fig08() -> None:
     np.testing.assert_allclose(deterministic.exponent_to_next.dropna(), 0.4)
     assert [*sound[:2]] == [*deterministic.cells[deterministic.exponent_to_next.notna()]]
     assert "at γ = N are at most 0.400(20), in the end 0.400(10)" in caption
-    assert "particles carry 2.0 to 2.0 J_U backwards" in caption
+    assert "particles carry 2.00 to 2.00 J_U backwards" in caption
 
 
 def test_momentum() -> None:

@@ -85,7 +85,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     gamma = next(iter(sorted(table.gamma.unique(), reverse=True)), "N")  # N, not 1
     temperature = np.mean(results[0].ends("temperature"))
     carried = (-temperature * table.particle_current / table.energy_current)[table.gamma == gamma]
-    low, high = (f"{value:.1f}" for value in (carried.min(), carried.max()))
+    low, high = (f"{value:.2f}" for value in (carried.min(), carried.max()))
     return f"""
         The paper reads κ as N^(1/3) at γ = N and N at γ = 1. Here ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])})
         κ = −J_U N/(T_N − T_1), which it prints without N. Exponents (b) at γ = {gamma} are {course(table, gamma)}. Open: heat alone, J_U − T J_n;
