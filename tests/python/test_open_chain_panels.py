@@ -150,5 +150,5 @@ def test_momentum() -> None:
     assert_points(rings, *((time, y / 2 / time, errors_of(y) / 2 / time) for y in variances))
     octaves = np.sqrt([8, 32])  # their middles
     assert_points(gases, *((octaves, [a, a], errors_of(np.array([1 + a, 1 + a]))) for a in (0.3, 0.25)))
-    assert "with a = 0.300(10), 0.200(10) and 0.050(10) without noise and with 10 %" in caption
+    assert "by 1.516(21) without noise, and by 1.320(19) and 1.072(15) with 10 %" in caption
     assert len(table) == 9 + 12

@@ -99,13 +99,10 @@ def test_the_gallery_opens_with_the_readings_of_every_figure_and_their_count() -
     assert [*table] == [*(f"Fig. {number}" for number in range(1, 11)), "Text"]
     assert sum(map(len, table.values())) == len(ROWS)
     assert table["Fig. 1"][1:] == [
-        "? [n(t) grows as log t, with the slope \\|p\\| n<sub>t</sub>(p)](#c02) 0.5000(10)",
-        "✗ [The front p<sub>0</sub>(t) falls logarithmically](#c03) 0.2500(20)",
+        "? [n(t) grows as log t, with the slope \\|p\\| n<sub>t</sub>(p)](#c02)",
+        "✗ [The front p<sub>0</sub>(t) falls logarithmically](#c03)",
     ]
-    assert (
-        "✗ [*intended:* The motion of a particle is superdiffusive](#c20-intended) 0.2500(20)"
-        in table["Fig. 7"]
-    )
+    assert "✗ [*intended:* The motion of a particle is superdiffusive](#c20-intended)" in table["Fig. 7"]
     assert f"{len(ROWS) - 5} of {len(ROWS)} readings hold, 2 do not, 3 are open." in page
     caveat = ROWS["C20", "intended"]["caveat"]
     assert caveat in page

@@ -65,7 +65,7 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
 def caption(results: Sequence[Result], outgoing: float) -> str:
     paper = next((result for result in results if case(result) == PAPERS), results[0])
     jumps = listed(f"{paper['jump'].mean[index]:.4g} at {end}" for index, end, *_ in ENDS).replace("-", "−")
-    dotted = " (dotted: equal temperatures)" if EQUAL in map(case, results) else ""
+    dotted = " (dotted: equal T, unequal rates)" if EQUAL in map(case, results) else ""
     return f"""
         The paper finds a jump of F(p, x) at p = 0. Here ({parameters([paper], "sigma", "gamma", *BATHS, paper=PAPER["fig03"])}) it is {jumps}.
         (b) Outgoing halves deviate from a Gaussian by up to {outgoing:.2g} % where F exceeds {100 * OFTEN:g} % of its maximum{dotted}."""

@@ -84,7 +84,7 @@ def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(2, 1, height=1.8)
     for k, (result, table) in enumerate(zip(results, tables, strict=True)):
         look = ZERO if zero(result) else LOOKS[k % len(LOOKS)]
-        name = f"$N = {table.cells.iloc[0]}$, " + ("zero" if zero(result) else "random") + " momentum"
+        name = f"$N = {table.cells.iloc[0]}$" + ", zero momentum" * zero(result)
         above.errorbar(table.time, table.variance, table.variance_error, label=name, **look)
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
@@ -106,6 +106,6 @@ def draw(results: Sequence[Result]) -> Parts:
     below.set(xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$")
     below.set_ylim(bottom=min(0.8, below.get_ylim()[0]))
     above.plot([], [], color="grey", label="centre of mass")
-    handles, labels = above.get_legend_handles_labels()
-    figure.legend(handles[::-1], labels[::-1], loc="outside upper left", ncols=2)
+    *handles, line = above.get_legend_handles_labels()[0][1:] + above.get_legend_handles_labels()[0][:1]
+    figure.legend(handles=[*handles, line], loc="outside upper left", ncols=2)
     return figure, pd.concat(tables), caption(results, tables)

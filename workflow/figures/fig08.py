@@ -120,5 +120,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.margins(x=0.13)  # room for the names of the guides
     handles, labels = above.get_legend_handles_labels()
     above.legend(handles[::-1], labels[::-1], loc="upper left")
+    below.plot([], [], "o", color="grey", markerfacecolor="white", label="heat alone")
+    below.legend(loc="lower right")
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
     return figure, whole, caption(table, shown)

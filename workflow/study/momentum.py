@@ -6,7 +6,7 @@ conserves energy alone. The chains are those of fig. 8. Q is the heat current of
 and a time [eq. 58]; <Q²>/2t per cell is its heat conductivity at this time, in units of T².
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from itertools import cycle
 from typing import Any, NamedTuple
 
@@ -16,9 +16,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import format_number, listed
+from workflow.lib.caption import format_number
 from workflow.lib.figure import PHYSICS, Parts, plots
-from workflow.lib.fit import fit_power, format_with_error
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.study import rings
@@ -73,14 +73,11 @@ def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
     return table[(table.rule == case.rule) & (table.epsilon == case.epsilon)]
 
 
-def growth(chains: pd.DataFrame, case: Case, common: Iterable[int]) -> str:
-    """Mean exponent of kappa of a case over the sizes that all have."""
-    rows = of_case(chains, case)
-    rows = rows[rows.cells.isin([*common]) & rows.usable]
-    if len(rows) < 2:
-        return "(unknown)"
-    law = fit_power(rows.cells, rows.kappa, rows.kappa_error, np.inf)
-    return format_with_error(law.exponent, law.error)
+def growth(chains: pd.DataFrame, case: Case, sizes: Collection[int]) -> str:
+    """kappa of a case at the largest of the sizes, over that at the smallest."""
+    rows = of_case(chains, case).set_index("cells").reindex([min(sizes), max(sizes)])
+    (first, one), (last, other) = rows[["kappa", "kappa_error"]].to_numpy()
+    return format_with_error(last / first, last / first * np.hypot(one / first, other / last))
 
 
 def caption(chains: pd.DataFrame) -> str:
@@ -89,9 +86,9 @@ def caption(chains: pd.DataFrame) -> str:
     compared = [Case("elastic", 0), Case("rotation", epsilon), Case("reversal", epsilon)]
     elastic, rotated, broken = (growth(chains, case, sizes) for case in compared)
     return f"""
-        Noise in a fraction of the collisions conserves energy and momentum (filled), or energy alone (open).
-        (a) In fig. 8's chain κ ∼ N^a, on average from N = {min(sizes)} to {max(sizes)}, with a = {listed([elastic, rotated, broken])} without noise and with
-        {100 * epsilon:g} % of either. (b) Heat of a ring: only broken momentum stops its growth. (c) Without noise."""
+        Noise in a fraction of the collisions conserves energy and momentum (filled), or energy alone (open). (a) In fig. 8's chain, whose gas
+        gets thinner, κ grows from N = {min(sizes)} to {max(sizes)} by {elastic} without noise, and by {rotated} and {broken} with {100 * epsilon:g} %.
+        (b) Heat of a ring: only broken momentum stops its growth. (c) Without noise."""
 
 
 def common_sizes(chains: pd.DataFrame) -> set[int]:

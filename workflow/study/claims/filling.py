@@ -25,7 +25,7 @@ def grows_logarithmically(data: Results) -> list[Estimate]:
     """Minus the exponent of p_0(t), which is dn/d ln t over the height of |p| n_t(p) above p_0, minus 1. Only the
     slow particles enter; those above p_0 are stationary (C01)."""
     front = estimate(data.one("fig01", RUN), "front_exponent")
-    return [replace(front / -1 - 1, label="-d ln p₀/d ln t - 1")]
+    return [replace(front / -1 - 1, label="(dn/d ln t)/(|p| n_t(p)) - 1, by p₀")]
 
 
 def front_falls(data: Results) -> list[Estimate]:

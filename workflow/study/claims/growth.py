@@ -1,10 +1,19 @@
 """Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 from workflow.lib.caption import format_number
 from workflow.lib.load import Result
-from workflow.study.results import MissingError, Results, by_size, combination, estimate, power, power_law
+from workflow.study.results import (
+    MissingError,
+    Results,
+    by_size,
+    combination,
+    estimate,
+    exponent_between,
+    power_law,
+)
 from workflow.study.rings import chain, gas
 from workflow.study.verdict import Estimate
 
@@ -48,23 +57,23 @@ def superdiffusive(data: Results) -> list[Estimate]:
 
 
 def without_momentum(data: Results) -> list[Estimate]:
-    """Exponent of kappa where a fraction DISTURBED of the collisions is followed by a rotation, which conserves
-    momentum, minus that where as many reverse the scatterer, which does not: of chains over all sizes that both
-    have, and beta - 1 of rings over the last octave that both have."""
-    chains = [_by_cells(runs) for runs in _disturbed(data, "chain-rotation", "chain-reversal")]
-    common = sorted(chains[0].keys() & chains[1].keys())
-    of_chains = [power({size: values[size] for size in common}, "d ln κ/d ln N") for values in chains]
+    """Exponent where a fraction DISTURBED of the collisions is followed by a rotation, which conserves momentum,
+    minus that where as many reverse the scatterer, which does not: of <Q²> in rings over the last octave that both
+    have, and of kappa in the chains of fig. 8 between all neighbouring sizes that both have."""
     rings = [max(runs, key=_last_time) for runs in _disturbed(data, "rotation", "reversal")]
-    octaves_of_both = set.intersection(*(set(_middles(ring)) for ring in rings))
-    if not octaves_of_both:
+    octaves = set.intersection(*(set(_middles(ring)) for ring in rings))
+    if not octaves:
         raise MissingError("the rings with rotation and with reversal have no octave in common")
-    time = max(octaves_of_both)
+    time = max(octaves)
     of_rings = [estimate(ring, "local_exponent", _middles(ring).index(time)) for ring in rings]
     label = "rotation minus reversal,"
-    return [
-        combination(of_chains, [1, -1], f"{label} {of_chains[0].label}"),
-        combination(of_rings, [1, -1], f"{label} β, t = {time:.0f}"),
-    ]
+    chains = [_by_cells(runs) for runs in _disturbed(data, "chain-rotation", "chain-reversal")]
+    common = sorted(chains[0].keys() & chains[1].keys())
+    differences = [combination(of_rings, [1, -1], f"{label} β, t = {time:.0f}")]
+    for a, b in pairwise(common):
+        slopes = [exponent_between(values[a], values[b], b / a, "") for values in chains]
+        differences.append(combination(slopes, [1, -1], f"{label} d ln κ/d ln N, N = {a} to {b}"))
+    return differences
 
 
 def _disturbed(data: Results, rotation: str, reversal: str) -> tuple[list[Result], list[Result]]:
