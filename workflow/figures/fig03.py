@@ -68,7 +68,7 @@ def caption(results: Sequence[Result], outgoing: float) -> str:
     dotted = " (dotted: equal T, unequal rates)" if EQUAL in map(case, results) else ""
     return f"""
         The paper finds a jump of F(p, x) at p = 0. Here ({parameters([paper], "sigma", "gamma", *BATHS, paper=PAPER["fig03"])}) it is {jumps}.
-        (b) Outgoing halves deviate from a Gaussian by up to {outgoing:.2g} % where F exceeds {100 * OFTEN:g} % of its maximum{dotted}."""
+        (b) Where F exceeds {100 * OFTEN:g} % of its maximum, outgoing halves are up to {outgoing:.2g} % off a Gaussian{dotted}."""
 
 
 @plots("paper equal", varying="temperature_left temperature_right")

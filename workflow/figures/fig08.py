@@ -88,8 +88,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     low, high = (f"{value:.2f}" for value in (carried.min(), carried.max()))
     return f"""
         The paper reads κ as N^(1/3) at γ = N and N at γ = 1. Here ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])})
-        κ = −J_U N/(T_N − T_1), which it prints without N. Exponents (b) at γ = {gamma} are {course(table, gamma)}. Open: heat alone, J_U − T J_n;
-        particles carry {low} to {high} J_U backwards."""
+        κ = −J_U N/(T_N − T_1). (b) Exponents at γ = {gamma} are {course(table, gamma)}; open: heat alone, J_U − T J_n, as particles carry {low} to
+        {high} J_U backwards."""
 
 
 @plots("deterministic deterministic-large rare rare-small mean-field", varying="cells gamma")

@@ -139,7 +139,7 @@ def draw(_: Sequence[Result]) -> Parts:
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
     caption = f"""
-        A particle flies past all others to the next scatterer (grey), which is fixed in place, and both exchange energy (colours) and momentum.
+        A particle flies past all others to the next scatterer (grey), fixed in place, and both exchange energy (colours) and momentum.
         Simulated with N = {CELLS} cells, σ = {format_number(SIGMA)} and γ = N. (a) The ring, joined at the dashed ends. (b) Baths, coloured by temperature, inject
         particles and absorb those that reach them."""
     return figure, table, caption

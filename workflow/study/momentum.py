@@ -88,7 +88,7 @@ def caption(chains: pd.DataFrame) -> str:
     return f"""
         Noise in a fraction of the collisions conserves energy and momentum (filled), or energy alone (open). (a) In fig. 8's chain, whose gas
         gets thinner, κ grows from N = {min(sizes)} to {max(sizes)} by {elastic} without noise, and by {rotated} and {broken} with {100 * epsilon:g} %.
-        (b) Heat of a ring: only broken momentum stops its growth. (c) Without noise."""
+        (b) Heat of a ring: only broken momentum stops its growth."""
 
 
 def common_sizes(chains: pd.DataFrame) -> set[int]:

@@ -141,8 +141,8 @@ def caption(table: pd.DataFrame) -> str:
     hold, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
     release = " Small symbols: release." if "release" in table else ""
     return f"""
-        Every line is a reading of a statement of the paper: literal, or its intended meaning (hollow symbols). {hold} of {len(table)} readings hold, {fail} do not, {undecided} are open. Intervals of the number that decides hold jointly at 95 % confidence and
-        include bounds on systematic errors. Grey: acceptance band; if it has one edge, the unit is half the interval. Arrows: numbers beyond the frame.{release}"""
+        Every line is a statement of the paper, literal or as intended (hollow): {hold} of {len(table)} readings hold, {fail} do not, {undecided} are open. Intervals of the
+        number that decides hold jointly at 95 % confidence. Grey: acceptance band; if it has one edge, the unit is half the interval.{release}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:
