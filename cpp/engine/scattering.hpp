@@ -20,7 +20,7 @@ struct Departure {
   double velocity;         // u, energy-normalised; with m = 1 the momentum
   std::int64_t cells;      // number of cells to the next scattering, with the sign of the velocity
   double duration;         // time to the next scattering; infinite for a particle at rest
-  int neighbour;           // 1: the collision changed the scatterer to the right, too; -1: to the left; 0: none
+  int neighbour;  // 1: the collision changed the scatterer to the right, too; -1: to the left; 0: none
 };
 
 /// A collision and the flight that follows it, on a ring of cells. passing: whether a particle may pass a

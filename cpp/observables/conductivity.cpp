@@ -4,8 +4,8 @@
 ///   kappa = -J_U N / (T_N - T_1).
 ///
 /// The paper prints kappa = J_U/(T_N - T_1) for a chain of length 1; its exponents need the gradient per
-/// cell, hence the factor N. Currents are means over the two openings [eq. 26]. kappa_heat is that of the heat
-/// J_U - T J_n alone, without the energy T that a particle carries on average [eq. 58].
+/// cell, hence the factor N. Currents are means over the two openings [eq. 26]. kappa_heat is that of the
+/// heat J_U - T J_n alone, without the energy T that a particle carries on average [eq. 58].
 ///
 /// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 31], which at gamma
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
@@ -52,9 +52,9 @@ double heat_current(TallyMeans mean) {
   return mean[tallies.energy_current] - temperature * mean[tallies.particle_current];
 }
 
-/// -J_U and -(J_U - T J_n) times the number of cells over the rise of temperature; NaN unless the rise is at least five of its
-/// standard errors, because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0
-/// with one replica.
+/// -J_U and -(J_U - T J_n) times the number of cells over the rise of temperature; NaN unless the rise is at
+/// least five of its standard errors, because a ratio to a number that may be 0 has neither a mean nor an
+/// error. The error is 0 with one replica.
 Group::Array conductivities(const Records& records, double cells, bool defined) {
   const Estimates found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
   const double error = records.size() > 1 ? found.standard_error.front() : 0;

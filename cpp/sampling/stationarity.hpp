@@ -106,7 +106,7 @@ class HalfDifferences {
 
 /// Quantities `stationarity_p_value`, `particle_gain`, as a share of the particles injected, and
 /// `stationary`: 1 if the p-value exceeds 1e-4, so that the test rejects one stationary run in ten thousand
-/// [eq. 51], and the gain, of either sign, does not exceed 4e-3, which goes with a bias of kappa of up to 2
+/// [eq. 51], and the gain, of either sign, does not exceed 4e-3, which goes with a bias of kappa of up to 3
 /// %, by more than three of its standard errors; NaN if one of them is unknown, or this error above 4e-3,
 /// with which the gain could not be seen.
 Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain);

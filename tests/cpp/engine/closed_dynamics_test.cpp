@@ -59,8 +59,8 @@ TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
 
 // A rotation is reported with the side of the neighbour that it changed, on the ring, too.
 TEST(Simulate, ReportsTheNeighbourThatARuleChanges) {
-  const ClosedChain chain{.cells = 4, .particles_per_cell = 1, .cell_length = 1, .sigma = 0.5,
-                          .rule = {"rotation", {1}}};
+  const ClosedChain chain{
+      .cells = 4, .particles_per_cell = 1, .cell_length = 1, .sigma = 0.5, .rule = {"rotation", {1}}};
   int left = 0;
   for (const std::uint32_t seed : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U})
     for (const std::uint32_t cell : {0U, 3U}) {
