@@ -63,7 +63,7 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
         part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
     axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
-    axes.legend(loc="upper right", title=label(result))
+    axes.set_title(label(result), size=style.label_size())
     return pd.concat(parts).assign(scatterer_temperature=str(start(result)))
 
 
@@ -114,15 +114,10 @@ def caption(results: Sequence[Result]) -> str:
 @plots("rest gaussian", varying="scatterer_temperature")
 def draw(results: Sequence[Result]) -> Parts:
     results = in_order(results)
-    figure, panels = plt.subplot_mosaic(
-        [["rest", "gaussian", "position"], ["rest", "gaussian", "speed"]],
-        figsize=(3 * style.COLUMN, 1.2 * style.HEIGHT),
-        width_ratios=[1.15, 1.15, 1],
-        height_ratios=[1.4, 1],
-    )
+    size = (2 * style.COLUMN, 1.8 * style.HEIGHT)
+    figure, panels = plt.subplot_mosaic([["rest", "gaussian"], ["position", "speed"]], figsize=size)
     position, speed, rest = (panels[name] for name in ("position", "speed", "rest"))
     panels["gaussian"].sharey(rest)
-    speed.sharex(position)
     common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
     shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
     tables = []
@@ -134,10 +129,11 @@ def draw(results: Sequence[Result]) -> Parts:
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
     name = rf"$\gamma = {run_parameters.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")
-    position.set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
+    position.set(xlabel="time $t$", ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
     speed.set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")
     position.legend(loc="upper left")
     position.set_ylim(top=1.35 * position.get_ylim()[1])
+    figure.legend(*rest.get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
     return figure, pd.concat(tables), caption(results)
 
