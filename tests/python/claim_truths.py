@@ -102,8 +102,8 @@ def deviation(size: float) -> Callable[..., np.ndarray]:
 found = [
     factor * size * (1 + k) / 200
     for factor in (1, 2)
-    for size, count in ((1, 30), (5, 30), (7, 31))
-    for k in range(count)
+    for size, numbers in ((1, range(1, 29)), (5, range(1, 29)), (7, range(31)))
+    for k in numbers
 ]
 claim(
     "profiles.linear_rates",

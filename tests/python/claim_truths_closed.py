@@ -43,7 +43,9 @@ claim("closed.persistence_limits", persistences, [0.01, 0.02, 0.03])
 dense = of_runs("fig05", shift, lambda run: run.series == "dense")
 claim("closed.persistence_in_dense_chain", persistences, dense)
 claim("closed.persistent", persistences, [1 / 3 + 0.025])
-claim("closed.correlated", persistences, [1 / 6 - 0.025])
+sigmas = [0.01 * k for k in (99, 95, 90, 80, 70, 60, 50, 40, 30, 20, 10)]
+sigmas = [*(-sigma for sigma in sigmas), *sigmas[::-1]]
+claim("closed.correlated", persistences, [abs(np.arccos(x) / np.pi + 0.01 * (2 + x) - 0.5) for x in sigmas])
 
 # Exponents of waiting times. The spread over cuts of the tail is 0.1, the change with the age 0.03.
 waits = {
@@ -119,7 +121,7 @@ def octaves(run: Run, middle: np.ndarray) -> np.ndarray:
 
 
 rings = {"momentum": {"local_exponent": octaves}}
-claim("growth.superdiffusive", rings, [1.31, 1.32, 1.34, 1.35])
+claim("growth.superdiffusive", rings, [*last_octaves.values()])
 
 
 # Where momentum is reversed with the probability ε, κ is N^ε, with rotations N^0.42, from N = 128 on a power that is 0.1
@@ -135,7 +137,7 @@ def undisturbed(run: Run) -> float:
 
 
 chains = {"kappa": disturbed, "stationary": undisturbed}
-claim("growth.without_momentum", {"momentum": rings["momentum"] | chains}, [0.34, 0.32, 0.32, 0.42])
+claim("growth.without_momentum", {"momentum": rings["momentum"] | chains}, [0.34, math.nan, 0.42])
 
 
 # At the k-th time the peak is at 5.2 + 3k cells and 100 + 10k high; there is none at the first and at the
@@ -196,7 +198,7 @@ def damped(panel: str, rest: float) -> World:
 
 
 claim("pulse.damping", damped("fig09a", 0.64), [(0.64 + k, 0.02) for k in range(4)])
-claim("pulse.damping_fits", damped("fig09a", 0.64), [0.64 + 0.03])
+claim("pulse.damping_fits", damped("fig09a", 0.64), [0.64 + 0.03, 0.64 + 0.04])
 claim("pulse.damping_rare", damped("fig09b", 1.5), [1.5, 2.5])
 
 # 2 - 1/xi with xi = 0.9, and the exponent of kappa from N = 32 on.

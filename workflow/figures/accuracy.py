@@ -150,9 +150,9 @@ def draw_costs(axes: Axes, kappa: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame, lines: pd.DataFrame) -> str:
-    text = "(a) Errors (circles: spent here) fall as 1/√(CPU time)"
+    text = "(a) Errors (circles: spent here), extrapolated as 1/√(CPU time)"
     for run in floors(table).head(1).itertuples():
-        text += f" down to the bias of short relaxation (dashed, N = {run.cells:g})"
+        text += f", do not reduce the bias of short relaxation (dashed, N = {run.cells:g})"
     if "kinetic" in {*table.series}:
         text += "; those of the kinetic equation fall faster"
     kappa = lines[lines.quantity == "kappa"]

@@ -75,7 +75,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     ]
     return f"""
         The paper finds F_N − F, chain minus kinetic equation, below {LIMITS[0][1]}, and below {LIMITS[1][1]} in the longest chain.
-        Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum, if ∫F dp = 1, is {listed(largest)} (c). Lines: mean field."""
+        Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum as p → 0, if ∫F dp = 1, is {listed(largest)} (c). Lines: mean field."""
 
 
 @plots("simulation continuum mean-field", varying="cells")

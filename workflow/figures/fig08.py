@@ -21,6 +21,14 @@ from workflow.physics import run_parameters
 from workflow.physics.paper import PAPER
 
 TITLE = "Heat conductivity against the size of the chain"
+COLUMNS = (
+    "kappa",
+    "kappa_heat",
+    "energy_current",
+    "particle_current",
+    "temperature_first",
+    "temperature_last",
+)
 EXPONENTS = {"kappa": "exponent_to_next", "kappa_heat": "heat_exponent_to_next"}
 UNITS = dict.fromkeys((*EXPONENTS.values(), "mean_field_exponent_to_next"), "1")
 UNITS |= {"mean_field_kappa": "energy/(time temperature)"}
@@ -48,11 +56,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows: list[dict[str, Any]] = []
     for result in results:
         row = {"gamma": run_parameters.gamma(result), "cells": int(result.parameters["cells"])}
-        rows.append(
-            row
-            | {"usable": result.usable}
-            | result.columns("kappa", "kappa_heat", "energy_current", "particle_current")
-        )
+        rows.append(row | {"usable": result.usable} | result.columns(*COLUMNS))
     table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
     for name, exponent in EXPONENTS.items():
         columns = ["between", exponent, f"{exponent}_error"]
@@ -83,7 +87,7 @@ def course(table: pd.DataFrame, gamma: str) -> str:
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     gamma = next(iter(sorted(table.gamma.unique(), reverse=True)), "N")  # N, not 1
-    temperature = np.mean(results[0].ends("temperature"))
+    temperature = (table.temperature_first + table.temperature_last) / 2
     carried = (-temperature * table.particle_current / table.energy_current)[table.gamma == gamma]
     low, high = (f"{value:.2f}" for value in (carried.min(), carried.max()))
     return f"""

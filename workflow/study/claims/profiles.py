@@ -57,12 +57,14 @@ def density_profiles(data: Results) -> list[Estimate]:
 
 
 def linear_rates(data: Results) -> list[Estimate]:
-    """Deviations of the rates from a straight line and of the current from its mean, over the mean rate."""
+    """Deviations of the rates from a straight line and of the current from its mean, over the mean rate. At the end
+    scatterers a bath determines one of the rates."""
     numbers = []
     for result, name in _both(data):
         scale = float(result["rate_right"].mean.mean())
         for quantity, words, first in DEVIATIONS:
-            for k in range(len(result[f"{quantity}_deviation"].mean)):
+            count = len(result[f"{quantity}_deviation"].mean)
+            for k in range(1, count - 1) if quantity.startswith("rate") else range(count):
                 label = f"{words} {k + first}, {name}"
                 numbers.append(estimate(result, f"{quantity}_deviation", k, label) / scale)
     return numbers
