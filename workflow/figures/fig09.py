@@ -17,7 +17,6 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import parameters
 from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.closed import quasi_stationary
@@ -28,7 +27,6 @@ from workflow.physics.sound import Chain
 UNITS = {"distance": "1"}
 
 FAINT = 0.45
-SURE = 3  # standard errors above which a change of speed is significant
 
 
 def sound_speed(rest: Result) -> float:
@@ -78,23 +76,13 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
 
 
 def motion(result: Result) -> str:
-    """Verb phrase on the speed of the peak: its mean over time if first and last value do not differ
-    significantly, else both. Speeds and positions of a run are correlated: errors of differences are at most the
-    sum of both."""
-    speed, where = result["peak_speed"], result["peak_position"]
+    """Verb phrase on the first and the last speed of the peak."""
+    speed = result["peak_speed"]
     known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
     if not len(known):
         return "is not resolved"
-    first, last = known[[0, -1]]
-    change = speed.mean[last] - speed.mean[first]
-    if abs(change) > SURE * (speed.error[first] + speed.error[last]):
-        texts = [style.format_quantity(speed, index) for index in (first, last)]
-        return f"{'rises' if change > 0 else 'falls'} from {texts[0]} to {texts[1]} in the end"
-    ends = [first, last + 1]  # between which the speeds are known
-    time = np.ptp(where.axes["time"][ends])
-    return (
-        f"is {format_with_error(np.ptp(where.mean[ends]) / time, where.error[ends].sum() / time)} on average"
-    )
+    first, last = (style.format_quantity(speed, index) for index in known[[0, -1]])
+    return f"goes from {first} to {last}"
 
 
 def caption(results: Sequence[Result]) -> str:
