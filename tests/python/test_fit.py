@@ -82,3 +82,9 @@ def test_local_exponents_and_fit_power_skip_points_without_a_value() -> None:
     law = fit_power(SIZE, y, error, EXACT)
     assert law.exponent == pytest.approx(0.4)
     assert np.isnan(fit_power(SIZE, y, np.where(SIZE == 16, np.nan, error), EXACT).exponent)
+
+
+@pytest.mark.parametrize(("x", "y"), [([4], [1]), ([4, 4], [1, 2]), ([4, 8], [1, np.nan]), ([4, 8], [1, -2])])
+def test_no_power_law_goes_through_fewer_than_two_places(x: list[float], y: list[float]) -> None:
+    with pytest.raises(ValueError, match="no power law"):
+        fit_power(x, y, 0.1 * np.abs(y), EXACT)
