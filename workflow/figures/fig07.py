@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
+from matplotlib.lines import Line2D
 
 from workflow.lib import style
 from workflow.lib.caption import parameters
@@ -105,7 +106,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNIT_SYSTEM})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$")
     below.set_ylim(bottom=min(0.8, below.get_ylim()[0]))
-    above.plot([], [], color="grey", label="centre of mass")
-    *handles, line = above.get_legend_handles_labels()[0][1:] + above.get_legend_handles_labels()[0][:1]
-    figure.legend(handles=[*handles, line], loc="outside upper left", ncols=2)
+    drift = Line2D([], [], color="grey", label="centre of mass")
+    handles = [*above.get_legend_handles_labels()[0], drift]
+    figure.legend(handles=handles, loc="outside upper left", ncols=2)
     return figure, pd.concat(tables), caption(results, tables)

@@ -109,13 +109,11 @@ def power_law(values: Mapping[int, Estimate], first: int, label: str) -> list[Es
         raise MissingError(f"no stationary sizes over two octaves, from {first} on")
     octaves = []
     for a, b in pairwise(sizes):
-        known = a in values and b <= 2 * a
         ends = f"N = {a} to {b}"
-        octaves.append(
-            exponent_between(values[a], values[b], b / a, ends)
-            if known
-            else Estimate(ends, math.nan, math.nan)
-        )
+        octave = Estimate(ends, math.nan, math.nan)
+        if a in values and b <= 2 * a:
+            octave = exponent_between(values[a], values[b], b / a, ends)
+        octaves.append(octave)
     if any(math.isnan(octave.value) for octave in octaves):
         return [replace(octave, label=f"{label}, {octave.label}") for octave in octaves]
     law, exponent = _fit({size: values[size] for size in sizes}, label)
