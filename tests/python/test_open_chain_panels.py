@@ -152,7 +152,7 @@ def test_momentum() -> None:
     octaves = np.sqrt([8, 32])  # their middles
     assert_points(gases, *((octaves, [a, a], errors_of(np.array([1 + a, 1 + a]))) for a in (0.3, 0.25)))
     assert (
-        "by 1.5 without noise, by 1.3 (10 %) and 1.3 (10 %) if momentum is conserved, by 1.1 if not"
+        "by 1.52 without noise, by 1.32 (10 %) and 1.32 (10 %) if momentum is conserved, by 1.07 if not"
         in caption
     )
     assert len(table) == 9 + 12

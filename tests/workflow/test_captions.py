@@ -27,7 +27,7 @@ NOTE = re.compile(r" \(paper: [^)]*\)")
 TEX = {"$": "", r"\sigma": "σ", r"\gamma": "γ", r"\lambda": "λ", r"\nu": "ν"}
 NUMBER = re.compile(r"(?<![\w.^(−⁻|])−?\d+(?:\.\d+)?(?:·10[⁻\w]+)?(?![\w⁻(/]|\.\d)")
 # Numbers of methods and symbols, by panel: T/2, x = 0, x = 1, 1 % of the largest F, ∫F dp = 1, Π = 0, |σ| ≤ 0.9 ...
-METHOD = {"fig02_upper": "2", "fig03": "0 1", "fig03_inset": "1", "fig05": "0 0.9", "fig06": "50"}
+METHOD = {"fig02_upper": "2", "fig03": "0 1", "fig03_inset": "1 0", "fig05": "0 0.9", "fig06": "50"}
 METHOD |= {"fig10a": "2 3", "accuracy": "1", "momentum": "1 8", "stability": "2", "fig07_inset": "0"}
 
 

@@ -75,7 +75,7 @@ def growth(chains: pd.DataFrame, case: Case, sizes: Collection[int]) -> str:
     """kappa of a case at the largest of the sizes, over that at the smallest."""
     rows = of_case(chains, case).set_index("cells").reindex([min(sizes), max(sizes)])
     first, last = rows.kappa
-    return f"{last / first:.2g}"
+    return f"{last / first:.2f}"
 
 
 def caption(chains: pd.DataFrame) -> str:
