@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from workflow.lib.caption import scientific
 from workflow.lib.fit import PowerLaw, fit_power, local_exponents
 from workflow.lib.identity import panel_of
 from workflow.lib.load import Index, Result
@@ -120,7 +121,7 @@ def power_law(values: Mapping[int, Estimate], first: int, label: str) -> list[Es
     if not law.rejected:
         return [replace(exponent, label=f"{exponent.label}, one power: p = {law.p_value:.2g}")]
     return [
-        replace(octave, label=f"{label}, {octave.label}, no power: p = {law.p_value:.0e}")
+        replace(octave, label=f"{label}, {octave.label}, no power: p = {scientific(law.p_value, 1)}")
         for octave in octaves
     ]
 
