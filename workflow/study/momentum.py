@@ -104,6 +104,7 @@ def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) 
     style.cross_out(axes, chains.cells, chains.kappa, ~chains.usable)
     style.against_size(axes, chains.cells)
     axes.set(yscale="log", ylabel=r"$\kappa$")
+    style.label_within_decades(axes.yaxis)
 
 
 def draw_rings(axes: Axes, control: pd.DataFrame, look: dict[Case, style.Look]) -> None:
