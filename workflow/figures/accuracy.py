@@ -1,4 +1,4 @@
-"""Accuracy against CPU time: what it costs, and what time does not buy.
+"""Accuracy against CPU time: what it costs, and which errors more time does not reduce.
 
 The time is that of each run on the machine that made it, from the file of its cost (docs/format.md), so that
 this panel alone differs between machines.

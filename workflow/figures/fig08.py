@@ -86,7 +86,7 @@ def course(table: pd.DataFrame, gamma: str) -> str:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    gamma = next(iter(sorted(table.gamma.unique(), reverse=True)), "N")  # N, not 1
+    gamma = max(table.gamma, default="N")  # N is after any digit
     temperature = (table.temperature_first + table.temperature_last) / 2
     carried = (-temperature * table.particle_current / table.energy_current)[table.gamma == gamma]
     low, high = (f"{value:.2f}" for value in (carried.min(), carried.max()))

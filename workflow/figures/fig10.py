@@ -89,10 +89,10 @@ def exponents(result: Result) -> str:
 def caption(results: Sequence[Result]) -> str:
     rest, gamma = results[0], run_parameters.gamma(results[0])
     law = "t^(−2/3)" if gamma == "N" else "t^(−1)"
-    guides = {"N": " Dashed: 2/3 (sound) and 1/2 (shock)."}
+    guides = " Dashed: 2/3 (sound) and 1/2 (shock)." * (gamma == "N")
     return f"""
         The paper reads the height of the peak as {law}. Here ({parameters([rest], "cells", "sigma", "particles_per_cell", paper=PAPER["fig10"])}) the exponent over
-        successive octaves (b), {named_start(rest)}, {exponents(rest)}.{guides.get(gamma, "")}"""
+        successive octaves (b), {named_start(rest)}, {exponents(rest)}.{guides}"""
 
 
 def draw(results: Sequence[Result]) -> Parts:

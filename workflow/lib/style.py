@@ -1,5 +1,6 @@
 """Style of the figures: sizes, fonts, and colours that are distinct in grey and for colour-blind readers."""
 
+import math
 from collections.abc import Iterable
 from itertools import cycle
 from pathlib import Path
@@ -193,7 +194,7 @@ def label_within_decades(axis: Axis) -> None:
 def against_size(axes: Axes, sizes: Iterable[int]) -> None:
     """A logarithmic x axis of numbers of cells, with ticks at these, or at every second or third of many."""
     known = sorted({*sizes})
-    ticks = known[:: -(-len(known) // MOST_TICKS) or 1]
+    ticks = known[:: max(1, math.ceil(len(known) / MOST_TICKS))]
     axes.set(xscale="log", xlabel="number of cells $N$")
     axes.set_xticks(ticks, [f"{size:g}" for size in ticks], minor=False)
     axes.xaxis.set_minor_locator(NullLocator())

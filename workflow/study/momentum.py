@@ -16,7 +16,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import format_number
 from workflow.lib.figure import PHYSICS, Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
@@ -120,7 +119,7 @@ def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
     """Plots β - 1 of every gas."""
     ours = cycle([("o", style.BLACK), *style.LOOKS[1:]])
     for (_, gas), (marker, color) in zip(elastic.groupby(rings.STATE, sort=False), ours, strict=False):
-        zeta, mass = (format_number(float(f"{gas[name].iloc[0]:.13g}")) for name in ("zeta", "mass"))
+        zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
         look = style.points(marker, color) | LINE
         label = rf"$\zeta = {zeta}$, $M = {mass}$"
         axes.errorbar(gas.middle, gas.local_exponent - 1, gas.local_exponent_error, label=label, **look)
@@ -153,7 +152,8 @@ def draw(results: Sequence[Result]) -> Parts:
     elastic = table[table.rule == "elastic"]
     ours = elastic.index.isin(control.index)
     draw_gases(right, pd.concat([elastic[ours], elastic[~ours]]))
-    gas = rf"rings, $\zeta = {broken.zeta:g}$, $M = {format_number(broken.mass)}$"
+    zeta, mass = rings.texts(broken.zeta, broken.mass)
+    gas = rf"rings, $\zeta = {zeta}$, $M = {mass}$"
     for axes, text in zip(
         (left, middle, right), ("chains of fig. 8", gas, "rings without noise"), strict=True
     ):

@@ -99,31 +99,29 @@ def exponent_between(first: Estimate, last: Estimate, factor: float, label: str)
     return Estimate(label, float(slope[0]), float(error[0]), min(first.dof, last.dof))
 
 
+def octave(values: Mapping[int, Estimate], a: int, b: int, label: str) -> Estimate:
+    """Exponent of a power law between two sizes; unknown, NaN, without a value at the smaller one, or if they are
+    farther apart than an octave. So fewer sizes decide less."""
+    if a in values and b <= 2 * a:
+        return exponent_between(values[a], values[b], b / a, label)
+    return Estimate(label, math.nan, math.nan)
+
+
 def power_law(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
     """The numbers of a statement that a power law holds from size `first` on. If the sizes follow one power, its
-    exponent; if they reject it, the exponent of every octave: so a law that bends by more than the band is
-    contradicted, one that bends by less is not, however precise the numbers are, and a bend is no error of an
-    exponent. An octave without one of its ends is unknown: fewer sizes decide less. Raises MissingError if there
-    are not two octaves."""
+    exponent; if they reject it, or if an octave is unknown, the exponent of every octave: so a law that bends by
+    more than the band is contradicted, one that bends by less is not, however precise the numbers are, and a bend
+    is no error of an exponent. Raises MissingError if there are not two octaves."""
     sizes = [first, *(size for size in sorted(values) if size > first)]
     if sizes[-1] < 4 * first:
         raise MissingError(f"no stationary sizes over two octaves, from {first} on")
-    octaves = []
-    for a, b in pairwise(sizes):
-        ends = f"N = {a} to {b}"
-        octave = Estimate(ends, math.nan, math.nan)
-        if a in values and b <= 2 * a:
-            octave = exponent_between(values[a], values[b], b / a, ends)
-        octaves.append(octave)
-    if any(math.isnan(octave.value) for octave in octaves):
-        return [replace(octave, label=f"{label}, {octave.label}") for octave in octaves]
+    octaves = [octave(values, a, b, f"{label}, N = {a} to {b}") for a, b in pairwise(sizes)]
+    if any(math.isnan(one.value) for one in octaves):
+        return octaves
     law, exponent = _fit({size: values[size] for size in sizes}, label)
     if not law.rejected:
         return [replace(exponent, label=f"{exponent.label}, one power: p = {law.p_value:.2g}")]
-    return [
-        replace(octave, label=f"{label}, {octave.label}, no power: p = {scientific(law.p_value, 1)}")
-        for octave in octaves
-    ]
+    return [replace(one, label=f"{one.label}, no power: p = {scientific(law.p_value, 1)}") for one in octaves]
 
 
 def power(values: Mapping[int, Estimate], label: str) -> Estimate:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
+from workflow.lib.caption import format_number
 from workflow.lib.load import Result
 from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
@@ -24,6 +25,12 @@ def gas(result: Result) -> tuple[str | float, ...]:
     rounding."""
     state = (float(result.parameters[name]) for name in STATE)
     return (result.parameters["rule"], run_parameters.epsilon(result), *state)
+
+
+def texts(zeta: float, mass: float) -> tuple[str, str]:
+    """ζ and M as text, without rounding errors: 0.8 and 1/3."""
+    zeta_text, mass_text = (format_number(float(f"{value:.13g}")) for value in (zeta, mass))
+    return zeta_text, mass_text
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterable
 from itertools import pairwise
 
-from workflow.lib.caption import format_number
 from workflow.lib.load import Result
 from workflow.study.results import (
     MissingError,
@@ -12,13 +11,13 @@ from workflow.study.results import (
     by_size,
     combination,
     estimate,
-    exponent_between,
+    octave,
     power_law,
 )
-from workflow.study.rings import chain
+from workflow.study.rings import chain, texts
 from workflow.study.verdict import Estimate
 
-FIRST = 32  # cells from which power laws of kappa are judged: in shorter chains both ends are felt
+FIRST = 32  # cells from which power laws of kappa are judged: shorter chains consist mainly of their ends
 DISTURBED = 0.1  # fraction of the collisions that are followed by a rotation or by a reversal
 # Series: of fig. 8 by γ.
 SIZES: dict[str | int, tuple[str, ...]] = {
@@ -53,11 +52,17 @@ def superdiffusive(data: Results) -> list[Estimate]:
     unknown: fewer decide less."""
     found = {ring.series: ring for ring in data.results("momentum", *GASES)}
     return [
-        estimate(found[gas], "local_exponent", -1, f"β, {_gas(found[gas])}, t = {_last_time(found[gas]):.0f}")
+        estimate(found[gas], "local_exponent", -1, f"β, {_named(found[gas])}")
         if gas in found
         else Estimate(f"β, {gas}", math.nan, math.nan)
         for gas in GASES
     ]
+
+
+def _named(ring: Result) -> str:
+    gas = chain(ring)
+    zeta, mass = texts(gas.zeta, gas.mass)
+    return f"ζ = {zeta}, M = {mass}, t = {_last_time(ring):.0f}"
 
 
 def without_momentum(data: Results) -> list[Estimate]:
@@ -73,13 +78,13 @@ def without_momentum(data: Results) -> list[Estimate]:
     label = "rotation minus reversal,"
     chains = [_by_cells(runs) for runs in _disturbed(data, "chain-rotation", "chain-reversal")]
     common = sorted(size for size in chains[0].keys() & chains[1].keys() if size >= FIRST)
-    differences = [combination(of_rings, [1, -1], f"{label} β, t = {time:.0f}")]
-    for a, b in pairwise(common):
-        label_of_octave = f"{label} d ln κ/d ln N, N = {a} to {b}"
-        slopes = [exponent_between(values[a], values[b], b / a, "") for values in chains]
-        known = combination(slopes, [1, -1], label_of_octave)
-        differences.append(known if b <= 2 * a else Estimate(label_of_octave, math.nan, math.nan))
-    return differences
+    of_chains = [
+        combination(
+            [octave(values, a, b, "") for values in chains], [1, -1], f"{label} d ln κ/d ln N, N = {a} to {b}"
+        )
+        for a, b in pairwise(common)
+    ]
+    return [combination(of_rings, [1, -1], f"{label} β, t = {time:.0f}"), *of_chains]
 
 
 def _disturbed(data: Results, rotation: str, reversal: str) -> tuple[list[Result], list[Result]]:
@@ -94,12 +99,6 @@ def _disturbed(data: Results, rotation: str, reversal: str) -> tuple[list[Result
 def _middles(ring: Result) -> list[float]:
     """Middles of the octaves of a ring."""
     return [*map(float, ring["local_exponent"].axes["middle"])]
-
-
-def _gas(ring: Result) -> str:
-    scaled = chain(ring)
-    zeta, mass = (format_number(float(f"{value:.13g}")) for value in (scaled.zeta, scaled.mass))
-    return f"ζ = {zeta}, M = {mass}"
 
 
 def _last_time(ring: Result) -> float:
