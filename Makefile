@@ -8,7 +8,7 @@ unexport BASH_ENV ENV VIRTUAL_ENV
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .SILENT:
-OPTIONS := QUALITY PANEL SEED REPLICAS ERROR JOBS DRY FORCE FILE SAMPLE PROFILE ACCOUNT PARTITION
+OPTIONS := QUALITY PANEL SEED REPLICAS ERROR JOBS DRY FILE SAMPLE PROFILE ACCOUNT PARTITION
 $(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(error $(name) from the environment has no effect: write make $(MAKECMDGOALS) $(name)=$($(name)), or unset $(name))))
 ENTRY := .venv/bin/python -I -m workflow
 DEV := .venv/bin
@@ -25,13 +25,12 @@ audit:  ## Check every result and figure against sources, parameters and package
 status:  ## Fresh, stale (why) or missing
 verify:  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
 provenance:  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
-prune:  ## Remove a quality's results and figures that no plan names; DRY=yes: list, FORCE=yes: also while planned ones are missing
 build:  ## The programs, in build/bin
 figures panel report gallery build: setup
-audit status verify provenance prune: present
+audit status verify provenance: present
 present:
 	bash workflow/pipeline/environment/setup.sh if-missing
-figures panel report gallery audit status verify provenance prune build:
+figures panel report gallery audit status verify provenance build:
 	$(ENTRY) $@  # which reads PANEL=, QUALITY= and the other options from MAKEFLAGS
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/pipeline/environment/setup.sh $(PROFILE)
@@ -57,4 +56,4 @@ bench: setup-dev build  ## Cost of an event
 	echo '$@ is not a target; write make panel PANEL=$@, or see make help' >&2; exit 2
 clean:  ## Remove build (programs, logs) and caches; results and figures stay
 	rm -rf build .cache
-.PHONY: help figures panel report gallery audit status verify provenance prune present setup setup-dev build test test-long check format bench clean
+.PHONY: help figures panel report gallery audit status verify provenance present setup setup-dev build test test-long check format bench clean

@@ -9,19 +9,19 @@ import os
 import shlex
 import signal
 import sys
+from pathlib import Path
 
 if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback before onstart
 
 from workflow.lib.identity import IDENTITY, ROOT
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.described import BuildError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import PYTHON, RESULT, Plan
-from workflow.pipeline.program import command_line, require_built, threads_of
-from workflow.pipeline.selection import DEFAULT_QUALITY
-from workflow.render.files import format_os_error
+from workflow.pipeline.program import BuildError, command_line, require_built, threads_of
+from workflow.pipeline.quality import DEFAULT_QUALITY
+from workflow.render.files import format_os_error, write_atomically
 
 if not os.path.samefile(".", ROOT):
     sys.exit(f"{os.getcwd()} is not the project's folder: run snakemake in {ROOT}, without -d")
@@ -30,9 +30,9 @@ if unknown := {*config} - {"quality"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality=")
 try:
     PLAN = Plan(config.get("quality", DEFAULT_QUALITY))
-    PANELS = [*PLAN, *[PLAN.report] * (PLAN.report is not None)]
-    FILES = {panel.name: panel.files for panel in PANELS}
-    PARENTS = {panel.name: panel.parents for panel in PANELS}
+    PRODUCTS = [*PLAN, *filter(None, [PLAN.report])]
+    FILES = {product.name: product.files for product in PRODUCTS}
+    PARENTS = {product.name: product.parents for product in PRODUCTS}
     if workflow.is_main_process and not workflow.output_settings.dryrun:
         lock_products()
 except ConfigurationError as error:
@@ -49,20 +49,21 @@ wildcard_constraints:
 
 onstart:
     stop_at_first_signal()
+    write_atomically({Path(panel.job_path): panel.job().encode() for panel in PLAN})
 
 
-def whole(panels):
-    """Files of panels and what they are made from, which are made if they are missing, whatever their times."""
-    return [ancient(path) for panel in panels for path in [*PARENTS[panel.name], *FILES[panel.name]]]
+def whole(products):
+    """Files of products and what they are made from, which are made if they are missing, whatever their times."""
+    return [ancient(path) for product in products for path in [*PARENTS[product.name], *FILES[product.name]]]
 
 
-def of_panel(wildcards):
+def run_of(wildcards):
     return PLAN[wildcards.panel].run(wildcards.run)
 
 
 def command(wildcards, threads):
     """Command of a run. A program that is not built from the present sources would write another result."""
-    run = of_panel(wildcards)
+    run = run_of(wildcards)
     try:
         require_built(run.program)
     except BuildError as error:
@@ -76,30 +77,30 @@ rule figures:
     localrule: True
 
 
-for panel in PANELS:
+for product in PRODUCTS:
 
     rule:
         name:
-            panel.name
+            product.name
         input:
-            whole([panel]),
+            whole([product]),
         localrule: True
 
     # A panel whose script fails keeps its former files: update() restores them. Its record has another name.
     rule:
         name:
-            f"render_{panel.name}"
+            f"render_{product.name}"
         input:
-            [ancient(path) for path in PARENTS[panel.name]],
+            [ancient(path) for path in PARENTS[product.name]],
         output:
-            [update(path) for path in FILES[panel.name][:-1]],
-            FILES[panel.name][-1],
+            [update(path) for path in FILES[product.name][:-1]],
+            FILES[product.name][-1],
         log:
-            panel.log,
+            product.log,
         priority: 10**9  # before any run
         localrule: True
         params:
-            command=shlex.join(panel.command()),
+            command=product.command,
         shell:
             "{params.command} 2> {log:q}"
 
@@ -108,10 +109,10 @@ if PLAN.report:
 
     rule gallery:
         input:
-            whole(PLAN),
+            whole(PLAN.reported),
         localrule: True
         shell:
-            "{PYTHON} -m workflow.study.report {PLAN.selection.name} --gallery"
+            "{PYTHON} -m workflow.study.report {PLAN.quality.name} --gallery"
 
 
 # One run of a program. Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the
@@ -119,13 +120,13 @@ if PLAN.report:
 # written.
 rule simulate:
     output:
-        f"data/{PLAN.selection.name}/{RESULT}",
+        f"data/{PLAN.quality.name}/{RESULT}",
     log:
-        f"data/{PLAN.selection.name}/{RESULT}".removesuffix("h5") + "log",
+        f"data/{PLAN.quality.name}/{RESULT}".removesuffix("h5") + "log",
     priority: lambda wildcards: -[*PLAN.panels].index(wildcards.panel)  # earlier panels first
     group:
-        lambda wildcards: "short" if threads_of(of_panel(wildcards)) == 1 else None  # on a cluster, several in a job
-    threads: lambda wildcards: threads_of(of_panel(wildcards))
+        lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None  # on a cluster, several in a job
+    threads: lambda wildcards: threads_of(run_of(wildcards))
     params:
         command=command,
     shell:

@@ -18,28 +18,26 @@ if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
 
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
-from workflow.pipeline.configuration import ConfigurationError, panel_names
-from workflow.pipeline.described import BuildError
+from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment import variables
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.make import DONE, make
-from workflow.pipeline.plan import Plan, require_panel
-from workflow.pipeline.program import compile_programs
-from workflow.pipeline.selection import DEFAULT_QUALITY, EFFORTS, Selection
+from workflow.pipeline.plan import Plan
+from workflow.pipeline.program import BuildError, compile_programs
+from workflow.pipeline.quality import DEFAULT_QUALITY, EFFORTS, Quality
 from workflow.render.files import format_os_error
 
-SELECTION = ("QUALITY", *map(str.upper, EFFORTS))
-EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
+QUALITY = ("QUALITY", *map(str.upper, EFFORTS))
+EXECUTION = (*QUALITY, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "figures": EXECUTION,
     "panel": ("PANEL", *EXECUTION),
     "report": EXECUTION,
     "gallery": tuple(name for name in EXECUTION if name != "DRY"),
-    "audit": ("PANEL", *SELECTION),
-    "status": ("PANEL", *SELECTION),
-    "verify": ("PANEL", "SAMPLE", *SELECTION),
+    "audit": ("PANEL", *QUALITY),
+    "status": ("PANEL", *QUALITY),
+    "verify": ("PANEL", "SAMPLE", *QUALITY),
     "provenance": ("FILE",),
-    "prune": ("DRY", "FORCE", *SELECTION),
     "build": (),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
@@ -49,7 +47,6 @@ ALLOWED = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
     "DRY": ("yes", "yes, or leave it out"),
-    "FORCE": ("yes", "yes, or leave it out"),
 }
 
 
@@ -87,10 +84,10 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
     return argparse.Namespace(**{name.lower(): value for name, value in given.items()})
 
 
-def selection_of(options: argparse.Namespace) -> str:
-    """Name of the selection. Raises ConfigurationError if its effort is invalid."""
+def quality_of(options: argparse.Namespace) -> str:
+    """Name of the quality. Raises ConfigurationError if its effort is invalid."""
     efforts = [f"{name}={value}" for name in EFFORTS if (value := getattr(options, name))]
-    return Selection.parse("_".join([options.quality, *efforts])).name
+    return Quality.parse("_".join([options.quality, *efforts])).name
 
 
 def require_profile(profile: str) -> None:
@@ -113,24 +110,18 @@ def run_target(target: str, options: argparse.Namespace) -> int:
 
         return origin(options.file)
     require_profile(options.profile)
-    names, selection = options.panel.split(), selection_of(options)
-    known = panel_names() if names else []
-    for name in names:
-        require_panel(name, known)
     if target == "build":
         lock_products()
         return int(bool(compile_programs()))
+    names, plan = options.panel.split(), Plan(quality_of(options))
+    for name in names:
+        _ = plan[name]  # raises ConfigurationError
     if target in DONE:
-        return make(target, selection, names, options)
-    plan = Plan(selection)
+        return make(plan, target, names, options)
     if target == "verify":
         from workflow.pipeline.verify import verify  # noqa: PLC0415
 
         return verify(plan, names, float(options.sample))
-    if target == "prune":
-        from workflow.pipeline.prune import prune  # noqa: PLC0415
-
-        return prune(plan, dry=bool(options.dry), force=bool(options.force))
     from workflow.pipeline.audit import audit  # noqa: PLC0415
 
     return audit(plan, names, render=target == "audit")

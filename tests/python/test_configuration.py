@@ -1,5 +1,4 @@
-"""Mistakes in the configuration are reported in one line each, with file, line, column, key, problem and
-remedy."""
+"""Mistakes in the configuration are reported in one line each, with file, line, keys, problem and remedy."""
 
 import re
 from pathlib import Path
@@ -7,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import Plan
+from workflow.pipeline.plan import Plan, runs_of
+from workflow.pipeline.program import require_valid
 
 PAPER = """panels:
   model: {}
@@ -49,36 +49,68 @@ def refusal(folder: Path) -> list[str]:
     return str(raised.value).split("\n")
 
 
-# A mistake, and what its message names: position, key, or the value that was meant.
+# A mistake, and what its message names: line, keys, or the value that was meant.
 MISTAKES = [
-    ("cells: 11", "cells: 0", "6:7: panels.mu.common.cells: "),
-    ("cells: 11", "cels: 11", "did you mean cells?"),
-    ("cells: 11", "replicas: 9", "quality/*.yaml"),
+    ("cells: 11", "replicas: 9", ":5: panels.mu.common: 'replicas'"),
     ("      cells: 11", "\tcells: 11", ":6:1: "),
-    ("cells: 11", "cells: 11\n      cells: 11", ":7:7: "),
-    ("[0, 0.5]", "[0, -3]", "all.sigma.1: "),
-    ("[0, 0.5]", "[0, 0.5, 0.5]", "all.sigma: 0.5 is listed"),
-    ("0.05N", "20 + N", "50+0.01N^2"),
+    ("cells: 11", "cells: 11\n      cells: 11", ":7:7: duplicate key cells"),
+    ("{sigma: 0.5, z", "{<<: {cells: 3}, sigma: 0.5, sigma: 0.6, z", "duplicate key sigma"),
+    ("[0, 0.5]", "[0, 0.5, 0.5]", ":9: panels.mu.series.all.sigma: "),
     ("  heat:", "  report:", "report"),
-    ("0.05N", ".nan", ":7:7: "),
-    ("      all: {", "      κ_σ: {", ":9:7: "),
+    ("0.05N", ".nan", ":7: panels.mu.common.relaxation-time: "),
+    ("      all: {", "      κ_σ: {", ":8: panels.mu.series: "),
     ("[0, 0.5]", "[0, 0.49999999999999994]", ":9: 0.49999999999999994 is 0.5 with"),
     ("200,600", "200,0.30000000000000004e3", ":14: 0.30000000000000004e3 is 300 with"),
-    ("warm", "tepid", "empty, warm, cold, hot"),
-    ("    program: persistence\n", "", "mu.series.all: "),
-    ("[peak]", "[peek]", "did you mean peak?"),
-    ("{replicas: 4}", "{error: 2}", "default.error: "),
-    ("dense: {replicas", "dense: {sigma", "dense.sigma: "),
-    ("dense: {replicas: 2}", "omit: [densest]", "remove it here; did you mean dense?"),
+    ("    program: persistence\n", "", ":8: panels.mu.series.all: None"),
+    ("persistence", "persistance", "did you mean persistence?"),
+    ("    uses:", "    used:", ":15: panels.heat: "),
+    ("[peak]", "[peek]", ":16: panels.heat.uses.0: peek is not a panel with runs; did you mean peak?"),
+    ("{replicas: 4}", "{error: 2}", ":1: default.error: "),
+    ("{replicas: 4}", "{error: 0.1, replicas: 2}", ":1: default: "),
+    ("dense: {replicas: 2}", "dense: {seed: 2}", ":3: panels.mu.dense"),
+    ("mu: {replicas: 8", "mu: {error: 0.1, replicas: 8", ":3: panels.mu: "),
+    ("dense: {replicas: 2}", "dense: {replicas: 2, error: 0.1}", ":3: panels.mu.dense: "),
+    ("dense: {replicas: 2}", "densest: {replicas: 2}", "did you mean dense?"),
+    ("dense: {replicas: 2}", "omit: [densest]", "did you mean dense?"),
+    ("  mu: {", "  nu: {", ":3: panels.nu: nu is not a panel"),
 ]
+# Options that a program refuses before anything is computed: series, run, option, value and what is allowed.
+REFUSED = [
+    (
+        "cells: 11",
+        "cells: 0",
+        ":9: panels.mu.series.all: all_sigma=0 and 1 more: persistence: error: --cells: '0'",
+    ),
+    ("cells: 11", "cels: 11", "did you mean --cells?"),
+    ("cells: 11", "cells: 11\n      gamma: 12", "--gamma exceeds --cells"),
+    ("[0, 0.5]", "[0, -3]", "all_sigma=-3: persistence: error: --sigma: '-3'"),
+    ("0.05N", "20 + N", "--relaxation-time: '20 + N'"),
+    ("warm", "tepid", "empty, warm, cold, hot"),
+]
+
+
+def change(folder: Path, old: str, new: str) -> Path:
+    """The file of the folder that has the text, changed."""
+    name, text = ("paper.yaml", PAPER) if old in PAPER else ("quality/smoke.yaml", SMOKE)
+    (folder / name).write_text(text.replace(old, new, 1))
+    return folder / name
 
 
 @pytest.mark.parametrize(("old", "new", "named"), MISTAKES)
 def test_a_mistake_is_reported_in_one_line(folder: Path, old: str, new: str, named: str) -> None:
-    name, text = ("paper.yaml", PAPER) if old in PAPER else ("quality/smoke.yaml", SMOKE)
-    (folder / name).write_text(text.replace(old, new, 1))
+    file = change(folder, old, new)
     lines = refusal(folder)
-    assert all(re.match(rf"{folder / name}:[0-9]+:([0-9]+:)? ", line) for line in lines)
+    assert all(re.match(rf"{file}:[0-9]+:([0-9]+:)? ", line) for line in lines)
+    assert any(named in line for line in lines), lines
+
+
+@pytest.mark.parametrize(("old", "new", "named"), REFUSED)
+def test_options_are_checked_by_the_programs(folder: Path, old: str, new: str, named: str) -> None:
+    file = change(folder, old, new)
+    with pytest.raises(ConfigurationError) as raised:
+        require_valid(runs_of(Plan("smoke", [folder / "paper.yaml"])).values())
+    lines = str(raised.value).split("\n")
+    assert all(re.match(rf"{file}:[0-9]+: panels", line) for line in lines)
     assert any(named in line for line in lines), lines
 
 

@@ -11,7 +11,7 @@ from workflow.lib.identity import run_name
 from workflow.pipeline.configuration import PANELS, ConfigurationError, Options
 from workflow.pipeline.plan import Plan, Run
 from workflow.pipeline.program import threads_of
-from workflow.pipeline.selection import QUALITIES, Selection
+from workflow.pipeline.quality import QUALITIES, Quality
 
 
 @pytest.mark.parametrize("quality", QUALITIES)
@@ -61,11 +61,11 @@ def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     for given in ({"replicas": 32}, {"error": 0.1}):
-        completed = Selection.parse("smoke_replicas=5").with_effort("fig05/paper", given | {"sigma": 0}, None)
+        completed = Quality.parse("smoke_replicas=5").with_effort("fig05/paper", given | {"sigma": 0}, None)
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
-    assert Selection.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
-    assert Selection.parse("smoke_error=0.50_seed=7").name == "smoke_seed=7_error=0.5"  # one folder
-    quality = Selection.parse("smoke_seed=7_error=0.005")
+    assert Quality.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
+    assert Quality.parse("smoke_error=0.50_seed=7").name == "smoke_seed=7_error=0.5"  # one folder
+    quality = Quality.parse("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
     completed = quality.with_effort("fig05/paper", {"replicas": 500, "sigma": 0}, 200)
     assert {key: completed[key] for key in completed if key != "seed"} == {
@@ -128,7 +128,7 @@ def test_effort_of_quality_panel_and_series(
         ("smoke_error=0.1_replicas=2", "ERROR and REPLICAS both determine"),
     ],
 )  # fmt: skip
-def test_selection_refuses_invalid_efforts(name: str, message: str) -> None:
+def test_a_quality_refuses_invalid_efforts(name: str, message: str) -> None:
     with pytest.raises(ConfigurationError) as error:
-        Selection.parse(name)
+        Quality.parse(name)
     assert str(error.value).startswith(message)

@@ -15,14 +15,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-import snakemake.cli
 
 from workflow.lib.identity import IDENTITY
 from workflow.pipeline import audit, verify
 
 ROOT = Path(__file__).parents[2]
 # Imported here, so that each fork has them and what they import already.
-PACKAGES = (audit, snakemake.cli, verify)
+PACKAGES = (audit, verify)
 OWN = ("workflow",)  # modules of this project
 PLAN = """panels:
   mu:
@@ -145,7 +144,6 @@ def new_project(folder: Path) -> Project:
         shutil.copytree(ROOT / name, folder / name, ignore=ignored)
     for name in ("Snakefile", "Makefile", "uv.lock", "CITATION.cff"):
         shutil.copy(ROOT / name, folder / name)
-    shutil.copytree(ROOT / "build/describe", folder / "build/describe")
     (folder / "data").mkdir()
     (folder / "workflow/config/quality").mkdir(parents=True)
     (folder / "workflow/config/paper.yaml").write_text(PLAN)

@@ -57,7 +57,7 @@ def test_make_passes_its_options(project: Project) -> None:
 
 @pytest.mark.parametrize(
     ("words", "option"),
-    [("prune", {"DRY": "yes"}), ("status", {"QUALITY": "smoke"}), ("panel PANEL=mu", {"SEED": "7"})],
+    [("figures", {"DRY": "yes"}), ("status", {"QUALITY": "smoke"}), ("panel PANEL=mu", {"SEED": "7"})],
 )  # fmt: skip
 def test_an_option_from_the_environment_is_refused(
     project: Project, words: str, option: dict[str, str]
@@ -79,7 +79,7 @@ def test_reading_keeps_an_environment_that_does_not_run(tmp_path: Path) -> None:
     packages.touch()
     (tmp_path / ".venv/bin").mkdir()
     (tmp_path / ".venv/bin/python").symlink_to("/nonexistent/python3")
-    for target in ("status", "audit", "provenance", "prune", "verify"):
+    for target in ("status", "audit", "provenance", "verify"):
         done = Project(tmp_path).run("make", target, status=2)
         assert "/nonexistent/python3" in done.stdout
         assert "make setup" in done.stdout

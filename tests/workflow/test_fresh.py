@@ -8,7 +8,6 @@ import subprocess
 import time
 from collections.abc import Callable
 
-import h5py
 import pytest
 
 from tests.python.conftest import soon
@@ -105,8 +104,6 @@ def test_a_program_that_is_older_than_its_sources_is_refused(project: Project) -
 
 
 def test_a_program_without_a_source_is_unknown(project: Project) -> None:
-    """Also if the description that a former build wrote is still there."""
-    assert (project.folder / "build/describe/heat_current.json").exists()
     text(PAPER, "program: displacement", "program: heat_current")(project)
     assert "heat_current" in project.entry("status", status=2)
 
@@ -187,37 +184,32 @@ def test_the_study_may_be_missing(project: Project) -> None:
     assert "workflow/study" in project.entry("report", status=2)
 
 
-def test_a_script_that_imports_another_is_refused(project: Project) -> None:
-    text("workflow/figures/mu.py", "import pandas as pd\n", "import pandas as pd\nfrom workflow.figures import energy\n")(project)  # fmt: skip
-    assert "mu.py uses workflow/figures/energy.py" in project.entry("panel", "PANEL=mu", status=1)
-
-
-@pytest.mark.parametrize(
-    "read",
-    [
-        'import numpy as np\nnp.loadtxt("data/points.csv")\n',
-        'import h5py\nh5py.File("data/points.csv")\n',
-    ],
-)
-def test_a_file_that_a_script_reads_is_declared_and_then_part_of_the_panel(
-    project: Project, read: str
-) -> None:
+def test_a_file_that_a_panel_declares_is_part_of_it(project: Project) -> None:
     (project.folder / "data/points.csv").write_text("1")
-    if "h5py" in read:
-        h5py.File(project.folder / "data/points.csv", "w").close()
-    former = (project.folder / "figures/smoke/mu.csv").read_bytes()
-    text("workflow/figures/mu.py", "import pandas as pd\n", f"import pandas as pd\n{read}")(project)
-    assert "inputs: [data/points.csv]" in project.entry("panel", "PANEL=mu", status=1)
-    assert (project.folder / "figures/smoke/mu.csv").read_bytes() == former
     text(PAPER, "  mu:\n", "  mu:\n    inputs: [data/points.csv]\n")(project)
+    assert project.stale() == {"mu"}
     project.entry("figures")
-    assert project.stale() == set()
     with (project.folder / "data/points.csv").open("ab") as file:
         file.write(b"2")
     assert project.stale() == {"mu"}
     assert "changed: data/points.csv" in project.entry("status", status=1)
     (project.folder / "data/points.csv").unlink()
     assert "data/points.csv is not a file" in project.entry("status", status=2)
+
+
+def test_panels_of_the_user_are_made_by_name_alone(project: Project) -> None:
+    """Also with a module and a file of their own."""
+    own = project.folder / "own"
+    own.mkdir()
+    (own / "panels.yaml").write_text("panels:\n  mine: {uses: [mu], inputs: [own/helper.py]}\n")
+    (own / "helper.py").write_text("NUMBER = 3\n")
+    shutil.copy(project.folder / "workflow/figures/mu.py", own / "mine.py")
+    append("own/mine.py", "from own.helper import NUMBER\nx = NUMBER\n")(project)
+    assert project.stale() == set()
+    project.entry("panel", "PANEL=mine")
+    (own / "helper.py").write_text("NUMBER = 4\n")
+    assert "changed: own/helper.py" in project.entry("status", status=1)
+    assert "mine" not in project.entry("report", "DRY=yes")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])

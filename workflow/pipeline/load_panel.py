@@ -3,7 +3,7 @@
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
 from workflow.pipeline.plan import Plan
-from workflow.pipeline.selection import DEFAULT_QUALITY
+from workflow.pipeline.quality import DEFAULT_QUALITY
 
 
 def load_panel(panel: str, quality: str = DEFAULT_QUALITY) -> dict[str, Result]:
@@ -19,5 +19,5 @@ def load_panel(panel: str, quality: str = DEFAULT_QUALITY) -> dict[str, Result]:
             for run in own.plotted
         }
     except FormatError as error:
-        remedy = f"run make panel PANEL={panel} {plan.selection.arguments}"
+        remedy = f"run make panel PANEL={panel} {plan.quality.arguments}"
         raise FormatError(f"{error}; {remedy}") from error

@@ -1,181 +1,227 @@
-"""Makes what is missing by one call of Snakemake: results, panels, report, gallery."""
+"""Makes what is missing: results, panels, report, gallery, by Snakemake, which is a child process."""
 
 import argparse
+import os
+import signal
+import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from threading import Event, Thread
 
 from workflow.lib.identity import panel_of
-from workflow.pipeline.audit import TOO_SHORT, edited
+from workflow.pipeline.audit import TOO_SHORT
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.environment import variables
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import Panel, Plan, doubtful, runs_of
-from workflow.pipeline.program import compile_programs, require_built
+from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, doubtful, runs_of
+from workflow.pipeline.program import compile_programs, require_built, require_valid
+from workflow.pipeline.queue import Queue
+from workflow.pipeline.state import Fault, State, faults_of_files, faults_of_results
 from workflow.render.files import missing
 
 LOG = Path("build/logs/snakemake.log")
-SECONDS = 60  # between two lines of progress, if they do not go to a terminal
+SECONDS = 60  # between two lines of progress, if they do not go to a terminal, and two looks at a queue
 DONE = {  # of the targets of Snakemake
-    "figures": "The figures are in figures/{selection}. Next: make report {arguments}",
-    "panel": "In figures/{selection}: {panel}.pdf and .png .svg .csv",
-    "report": "The report is figures/{selection}/report.html",
-    "gallery": "The gallery is docs/gallery",
+    "figures": "The figures are in figures/{quality}{except_}. Next: make report {arguments}",
+    "panel": "In figures/{quality}: {panels}.pdf and .png .svg .csv",
+    "report": "The report is figures/{quality}/report.html{except_}",
+    "gallery": "The gallery is docs/gallery{except_}",
 }
 
 
-def make(target: str, selection: str, names: list[str], options: argparse.Namespace) -> int:
+def make(plan: Plan, target: str, names: Sequence[str], options: argparse.Namespace) -> int:
     """Makes what is missing of a target of DONE; with DRY=yes, lists it. names: of the panels of the target
-    `panel`. After an effort compares with the results of the quality. Returns the exit status. Raises
-    ConfigurationError, BuildError, OSError, CalledProcessError."""
-    if options.dry:
-        plan = Plan(selection)
-        panels = requested(plan, target, names)
-    else:
-        lock_products()
-        plan, panels = with_programs(target, selection, names)
-    unmade = [panel for panel in panels if panel.is_incomplete()]
+    `panel`. Returns the exit status. Raises ConfigurationError, BuildError, OSError, CalledProcessError."""
+    panels = requested(plan, target, names)
+    products: list[Product] = [*panels, plan.report] if target == "report" and plan.report else [*panels]
     runs = runs_of(panels)
     results = missing(runs)
     if options.dry:
-        print(
-            "\n".join([*results, *(path for panel in unmade for path in panel.files)]) or "Nothing to be made"
-        )
+        unmade = [path for product in products if product.is_incomplete() for path in product.files]
+        print("\n".join([*results, *unmade]) or "Nothing to be made")
         return 0
+    lock_products()
     for panel in (panel for panel in panels if names and panel.replaced):
         listed = ", ".join(panel.replaced)
-        print(f"{panel.name}: other {listed} in quality/{plan.selection.quality}.yaml than in paper.yaml")
-    if unmade or target == "gallery":
-        for program in {runs[path].program for path in results}:
-            require_built(program)
-        begin = time.time()
-        with progress(unmade, results):
-            status = snakemake(names or [target], selection, options)
-        if variables.stopped:
-            print("Stopped; the same command resumes", file=sys.stderr)
-            return 128 + variables.stopped[0]
+        print(f"{panel.name}: other {listed} in quality/{plan.quality.file}.yaml than in its block")
+    unmade_products = [product for product in products if product.is_incomplete()]
+    if unmade_products or target == "gallery":
+        if results:  # rendering needs no compiler
+            compile_programs()
+            for program in {runs[path].program for path in results}:
+                require_built(program)
+            require_valid(runs[path] for path in results)
+        for log in [*map(log_of, results), *(product.log for product in unmade_products)]:
+            Path(log).unlink(missing_ok=True)  # of a former failure
+        status = snakemake(names or [target], plan.quality.name, options, unmade_products, results)
         if status:
-            report_failure(panels, begin)
-            return 1
-    words = {"selection": selection, "arguments": plan.selection.arguments, "panel": " ".join(names)}
-    print(DONE[target].format_map(words))
-    report_defects(plan, panels)
-    if target in ("figures", "panel") and plan.selection.effort:
-        from workflow.pipeline.compare import compare  # noqa: PLC0415  0.5 s
-
-        return compare(plan, [panel.name for panel in panels])
-    return 0
+            if status < 128:
+                report_failure(products)
+            return status
+    return report_products(plan, target, panels, products)
 
 
 def requested(plan: Plan, target: str, names: Sequence[str]) -> list[Panel]:
-    """The panels of a target, for `report` with the report. Raises ConfigurationError."""
+    """The panels of a target. Raises ConfigurationError."""
     if target in ("report", "gallery") and not plan.report:
         raise ConfigurationError("there is no folder workflow/study, which makes the report")
-    if target == "report" and plan.report:
-        return [*plan, plan.report]
-    return [plan[name] for name in names] or (plan.paper if target == "figures" else [*plan])
+    return [plan[name] for name in names] or (plan.paper if target == "figures" else plan.reported)
 
 
-def with_programs(target: str, selection: str, names: Sequence[str]) -> tuple[Plan, list[Panel]]:
-    """Plan and panels of a target. Before, compiles the programs if results are missing: rendering needs no
-    compiler. Raises ConfigurationError, CalledProcessError."""
-    with suppress(ConfigurationError):  # perhaps by former programs
-        plan = Plan(selection)
-        panels = requested(plan, target, names)
-        if not missing(runs_of(panels)):
-            return plan, panels
-    compile_programs()
-    plan = Plan(selection)
-    return plan, requested(plan, target, names)
+def log_of(result: str) -> str:
+    """Path of what the program of a result prints."""
+    return result.removesuffix("h5") + "log"
 
 
-def report_defects(plan: Plan, panels: Sequence[Panel]) -> None:
-    """Prints files that were edited by hand, and the number of doubtful runs."""
-    for fault in edited(panels):
-        print(f"{fault.path}: {fault.reason}, then repeat the command", file=sys.stderr)
-    if found := [path for path in doubtful(panels) if panel_of(path) not in TOO_SHORT]:
-        number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
-        few = "; at smoke few replicas are intended" * (plan.selection.quality == "smoke")
-        print(f"{number} doubts{few}: make status {plan.selection.arguments}")
-
-
-def snakemake(targets: Sequence[str], selection: str, options: argparse.Namespace) -> int:
-    """Makes what is missing of the targets. Returns the exit status. What Snakemake prints goes to LOG."""
+def snakemake(
+    targets: Sequence[str],
+    quality: str,
+    options: argparse.Namespace,
+    products: Sequence[Product],
+    results: Sequence[str],
+) -> int:
+    """Makes what is missing of the targets. Returns the exit status: 0, 1, or 128 and the number of a signal.
+    What Snakemake prints goes to LOG."""
     on_cluster = options.profile != "default"
     words = [f"--workflow-profile=profiles/{options.profile}"]
     words += [f"--{'jobs' if on_cluster else 'cores'}={options.jobs}"] if options.jobs else []
     slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
     resources = [f"{name}={value}" for name, value in slurm.items() if value]
     words += ["--default-resources", *resources] if resources else []
-    words += ["--config", f"quality={selection}", "--", *targets]
-    from snakemake.cli import main as run  # noqa: PLC0415  0.5 s
+    what = ["--config", f"quality={quality}", "--", *targets]
+    queue = Queue(LOG) if options.profile == "slurm" else None
+    progress = Progress(products, results)
+    status = execute([*words, *what], progress, queue)
+    if queue and queue.abandoned and not progress.results:
+        # All results are there, whatever the queue says: the rest is made here.
+        status = execute(what, progress)
+    return status
 
-    sys.argv = ["snakemake", *words]  # Snakemake prints its command
+
+class Progress:
+    """Prints every product that is made meanwhile, and how many results there are, in a terminal on one line."""
+
+    def __init__(self, products: Iterable[Product], results: Sequence[str]) -> None:
+        self.products, self.results = [*products], [*results]  # that are missing
+        self._number, self._begin, self._last = len(results), time.monotonic(), time.monotonic()
+
+    def update(self) -> None:
+        self.results = missing(self.results)
+        for product in [product for product in self.products if not product.is_incomplete()]:
+            self.products.remove(product)
+            print(f"{product.name}: {printed_by(product.log) or 'rendered'}", flush=True)
+        now = time.monotonic()
+        made = self._number - len(self.results)
+        line = f"{made} of {self._number} results after {(now - self._begin) / 60:.1f} minutes"
+        if sys.stdout.isatty():
+            print(line, end=" \r", flush=True)
+        elif self._number and now - self._last > SECONDS:
+            print(line, flush=True)
+            self._last = now
+
+
+def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None) -> int:
+    """Runs Snakemake in a process group of its own, to which signals are passed on: programs write checkpoints.
+    Returns its exit status, 128 and the number of a signal if one has come."""
     LOG.parent.mkdir(parents=True, exist_ok=True)
-    with LOG.open("w") as log, redirect_stderr(log), redirect_stdout(log):
-        try:
-            run(words)
-        except SystemExit as end:
-            if isinstance(end.code, str):
-                print(end.code, file=log)
-            return end.code if isinstance(end.code, int) else int(end.code is not None)
-    return 0
+    with LOG.open("w") as log:
+        command = [PYTHON, "-m", "snakemake", *words]
+        process = subprocess.Popen(
+            command, stdout=log, stderr=log, start_new_session=True, pass_fds=[lock_products()]
+        )
+        with passing_signals(process) as received:
+            while True:
+                try:
+                    status = process.wait(1)
+                except subprocess.TimeoutExpired:
+                    status = None
+                progress.update()
+                if status is not None:
+                    break
+                if queue and not received and queue.is_done(progress.results):
+                    os.killpg(process.pid, signal.SIGINT)
+    if received:
+        print("Stopped; the same command resumes", file=sys.stderr)
+        return 128 + received[0]
+    return int(status != 0)
 
 
 @contextmanager
-def progress(panels: Sequence[Panel], results: Sequence[str]) -> Iterator[None]:
-    """Prints every panel that is made meanwhile, and how many results there are, in a terminal on one line."""
-    output, done = sys.stdout, Event()
+def passing_signals(process: "subprocess.Popen[bytes]") -> Iterator[list[int]]:
+    """Passes the first signal that would end this command on to the process group; yields those received."""
+    received: list[int] = []
 
-    def watch() -> None:
-        pending, begin, last = [*panels], time.monotonic(), time.monotonic()
-        while pending:
-            ended = done.wait(1)
-            for panel in [panel for panel in pending if not panel.is_incomplete()]:
-                pending.remove(panel)
-                print(f"{panel.name}: {printed_by(panel.log) or 'rendered'}", file=output, flush=True)
-            now, made = time.monotonic(), len(results) - len(missing(results))
-            line = f"{made} of {len(results)} results after {(now - begin) / 60:.1f} minutes"
-            if output.isatty():
-                print(line, end=" \r", file=output, flush=True)
-            elif results and now - last > SECONDS:
-                print(line, file=output, flush=True)
-                last = now
-            if ended:
-                break
+    def stop(number: int, _: object) -> None:
+        if not received and process.poll() is None:
+            os.killpg(process.pid, number)
+        received.append(number)
 
-    watcher = Thread(target=watch, daemon=True)
-    watcher.start()
+    numbers = [
+        n for n in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if signal.getsignal(n) != signal.SIG_IGN
+    ]
+    former = {number: signal.signal(number, stop) for number in numbers}
     try:
-        yield
+        yield received
     finally:
-        done.set()
-        watcher.join()
+        for number, handler in former.items():
+            signal.signal(number, handler)
 
 
-def report_failure(panels: Sequence[Panel], begin: float) -> None:
-    """Prints a line for each panel that is not made, with the reason from a log that was written after a
-    time."""
-    failed, without = [panel for panel in panels if panel.is_incomplete()], []
-    for panel in failed:
-        logs = [path.removesuffix("h5") + "log" for path in missing(run.path for run in panel.plotted)]
-        found = ((log, text) for log in [*logs, panel.log] if (text := printed_by(log, begin)))
-        if first := next(found, None):
-            print(f"{panel.name}: {first[1].splitlines()[-1]} ({first[0]})", file=sys.stderr)
+def report_failure(products: Sequence[Product]) -> None:
+    """Prints a line for each product that is not made, with the reason from the log of a result or its own."""
+    failed, without = [product for product in products if product.is_incomplete()], []
+    for product in failed:
+        logs = [log_of(path) for path in missing(product.parents) if path.endswith(".h5")]
+        reasons = ((log, text) for log in [*logs, product.log] if (text := printed_by(log)))
+        if first := next(reasons, None):
+            print(f"{product.name}: {first[1].splitlines()[-1]} ({first[0]})", file=sys.stderr)
         else:
-            without.append(panel.name)
+            without.append(product.name)
     if without:
-        alone = len(without) == len(failed)  # otherwise Snakemake's last line is on the panels above
-        reason = f": {printed_by(str(LOG)).splitlines()[-1]}" if alone else ""
+        alone = len(without) == len(failed)  # otherwise Snakemake's last line is on the products above
+        reason = f": {reason_in(printed_by(str(LOG)))}" if alone else ""
         print(f"{', '.join(without)}: not made{reason} ({LOG})", file=sys.stderr)
-    if made := len(panels) - len(failed):
+    if made := len(products) - len(failed):
         print(f"{made} other panel{'s are' if made > 1 else ' is'} made", file=sys.stderr)
 
 
-def printed_by(log: str, begin: float = 0) -> str:
-    """What the command with this log has printed after a time, "" if there is no such log."""
+def reason_in(log: str) -> str:
+    """The reason of a failure in what Snakemake has printed: the last error of sbatch, or the last line."""
+    lines = log.splitlines() or [""]
+    return next((line.strip() for line in reversed(lines) if "sbatch: error:" in line), lines[-1])
+
+
+def printed_by(log: str) -> str:
+    """What the command with this log has printed, "" if there is no such log."""
     path = Path(log)
-    return path.read_text().strip() if path.exists() and path.stat().st_mtime >= begin else ""
+    return path.read_text().strip() if path.exists() else ""
+
+
+def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: Sequence[Product]) -> int:
+    """Prints where the products are, without those that were edited by hand, and the number of doubtful runs.
+    Returns the exit status: 1 if one was edited."""
+    edited = faults_by_edit(panels, products)
+    for fault in {*edited.values()}:
+        print(f"{fault.path}: {fault.reason}, then repeat the command", file=sys.stderr)
+    unedited = [panel.name for panel in panels if panel.name not in edited]
+    words = {"quality": plan.quality.name, "arguments": plan.quality.arguments, "panels": " ".join(unedited)}
+    except_ = f", except {', '.join(edited)}" if edited else ""
+    if unedited and not (target == "report" and "report" in edited):
+        print(DONE[target].format(**words, except_=except_))
+    if found := [path for path in doubtful(panels) if panel_of(path) not in TOO_SHORT]:
+        number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
+        few = "; at smoke few replicas are intended" if plan.quality.file == "smoke" else ""
+        print(f"{number} doubts{few}: make status {plan.quality.arguments}")
+    return int(bool(edited))
+
+
+def faults_by_edit(panels: Sequence[Panel], products: Sequence[Product]) -> dict[str, Fault]:
+    """Products whose files, or results, were edited by hand, by name."""
+    faults = {name: fault for name, fault in faults_of_files(products).items() if fault.state is State.EDITED}
+    results = faults_of_results(runs_of(panels))
+    for panel in panels:
+        for path in {*results} & {*panel.parents}:
+            if results[path].state is State.EDITED:
+                faults[panel.name] = results[path]
+    return faults

@@ -1,17 +1,17 @@
-"""The plan of a selection: panels with their runs, the report, and the paths of all that is made."""
+"""The plan of a quality: panels with their runs, the report, and the paths of all that is made."""
 
 import itertools
 import json
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from workflow.lib.identity import ROOT, result_identity, run_name
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import (
-    EFFORT_OPTIONS,
     PANELS,
     SCRIPTS,
     STUDY,
@@ -25,7 +25,7 @@ from workflow.pipeline.configuration import (
     require_distinct,
 )
 from workflow.pipeline.polynomial import evaluated
-from workflow.pipeline.selection import DEFAULT_QUALITY, Selection
+from workflow.pipeline.quality import DEFAULT_QUALITY, Quality
 from workflow.pipeline.sources import is_sampled, source_hash
 from workflow.render.files import missing
 from workflow.render.record import (
@@ -41,7 +41,7 @@ from workflow.render.record import (
 FIGURES = "figures"
 FIGURE_SCRIPTS = "workflow/figures"
 REPORT = "report"
-RESULT = "{panel}/{run}.{identity}.h5"  # below data/SELECTION
+RESULT = "{panel}/{run}.{identity}.h5"  # below data/QUALITY
 PYTHON = ".venv/bin/python"
 
 
@@ -54,6 +54,7 @@ class Run:
     program: str
     options: Options
     folder: str
+    where: str = ""  # file, line and key of the series
 
     @property
     def panel(self) -> str:
@@ -72,36 +73,31 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Panel:
-    """Files in figures/QUALITY with their record: a figure, or the report, whose parents are the figures.
-
-    runs: its own; plotted: those of the panels that it uses, then its own; inputs: other files and folders
-    that its script uses; replaced: options of paper.yaml that the quality replaces, as `cells of rare`; study:
-    it is of the study and made for the report only."""
+class Product(ABC):
+    """Files in figures/QUALITY, with a record of what they are made from. inputs: files and folders that the
+    script uses."""
 
     name: str
-    selection: str
+    quality: str
     script: str
-    runs: tuple[Run, ...] = ()
-    plotted: tuple[Run, ...] = ()
-    figures: tuple["Panel", ...] = ()
     inputs: tuple[str, ...] = ()
-    replaced: tuple[str, ...] = ()
-    study: bool = False
 
-    def run(self, name: str) -> Run:
-        """Its own run of this name."""
-        return next(run for run in self.runs if run.name == name)
+    formats: ClassVar[Sequence[str]]
+
+    @property
+    @abstractmethod
+    def parents(self) -> list[str]:
+        """Paths of the results, or of the files of figures, that it is made from. Raises OSError."""
+
+    @property
+    @abstractmethod
+    def command(self) -> str:
+        """Command line that makes it."""
 
     @property
     def stem(self) -> str:
         """Path of the files, without suffix."""
-        return f"{FIGURES}/{self.selection}/{self.name}"
-
-    @property
-    def parents(self) -> list[str]:
-        """Paths of the plotted results, or of the files of all figures. Raises OSError."""
-        return [run.path for run in self.plotted] + [path for panel in self.figures for path in panel.files]
+        return f"{FIGURES}/{self.quality}/{self.name}"
 
     @property
     def sources(self) -> dict[str, str]:
@@ -118,13 +114,12 @@ class Panel:
 
     @property
     def record_path(self) -> str:
-        return f"{FIGURES}/{self.selection}/{record_name(self.name, self.identity)}"
+        return f"{FIGURES}/{self.quality}/{record_name(self.name, self.identity)}"
 
     @property
     def files(self) -> list[str]:
         """Paths of all files, the record last."""
-        formats = ("html",) if self.figures else FORMATS
-        return [*(f"{self.stem}.{suffix}" for suffix in formats), self.record_path]
+        return [*(f"{self.stem}.{suffix}" for suffix in self.formats), self.record_path]
 
     @property
     def record(self) -> dict[str, Any]:
@@ -132,57 +127,113 @@ class Panel:
         return read_record(self.record_path)
 
     def is_incomplete(self) -> bool:
-        """Whether a file of the panel, or one that it is made from, is missing. Raises ConfigurationError,
+        """Whether one of its files, or of those that it is made from, is missing. Raises ConfigurationError,
         OSError."""
         return bool(missing([*self.parents, *self.files]))
 
     @property
     def log(self) -> str:
         """Path of what its command prints."""
-        return f"build/logs/{self.selection}/{self.name}.log"
+        return f"build/logs/{self.quality}/{self.name}.log"
 
-    def command(self, stem: str = "") -> list[str]:
-        """Command that renders the panel, with another stem elsewhere; or the report."""
-        if self.figures:
-            return [PYTHON, "-m", "workflow.study.report", self.selection]
-        job = {"script": self.script, "stem": stem or self.stem, "results": self.parents}
-        return [
-            PYTHON,
-            "-m",
-            "workflow.render",
-            json.dumps(job | {"inputs": self.inputs, "planned": self.identity}),
-        ]
+
+@dataclass(frozen=True)
+class Panel(Product):
+    """A figure. runs: its own; plotted: those of the panels that it uses, then its own; replaced: options of
+    paper.yaml that the quality replaces, as `cells of rare`; file: of its block."""
+
+    runs: tuple[Run, ...] = ()
+    plotted: tuple[Run, ...] = ()
+    replaced: tuple[str, ...] = ()
+    file: Path = PANELS[0]
+
+    formats: ClassVar[Sequence[str]] = FORMATS
+
+    def run(self, name: str) -> Run:
+        """Its own run of this name."""
+        return next(run for run in self.runs if run.name == name)
+
+    @property
+    def study(self) -> bool:
+        """Whether it is of the study, made for the report only."""
+        return self.file == STUDY
+
+    @property
+    def parents(self) -> list[str]:
+        return [run.path for run in self.plotted]
+
+    @property
+    def job_path(self) -> str:
+        """Path of the job for the command."""
+        return f"build/jobs/{self.quality}/{self.name}.json"
+
+    def job(self, stem: str = "") -> str:
+        """What workflow.render reads: the arguments of render(). stem: of the files, if they are written
+        elsewhere."""
+        return json.dumps(
+            {
+                "script": self.script,
+                "stem": stem or self.stem,
+                "results": self.parents,
+                "inputs": self.inputs,
+                "planned": self.identity,
+            }
+        )
+
+    @property
+    def command(self) -> str:
+        return f"{PYTHON} -m workflow.render < '{self.job_path}'"
+
+
+@dataclass(frozen=True)
+class Report(Product):
+    """The report on all panels of the paper and of the study."""
+
+    panels: tuple[Panel, ...] = ()
+
+    formats: ClassVar[Sequence[str]] = ("html",)
+
+    @property
+    def parents(self) -> list[str]:
+        return [path for panel in self.panels for path in panel.files]
+
+    @property
+    def command(self) -> str:
+        return f"{PYTHON} -m workflow.study.report '{self.quality}'"
 
 
 class Plan:
-    """What is made at a selection. Raises ConfigurationError."""
+    """What is made at a quality. Raises ConfigurationError."""
 
-    def __init__(self, selection: str = DEFAULT_QUALITY, files: Sequence[Path] = PANELS) -> None:
-        """selection: a name as Selection parses it; files: YAML files with panels, the paper's first."""
-        self.selection = Selection.parse(selection)
+    def __init__(self, quality: str = DEFAULT_QUALITY, files: Sequence[Path] = PANELS) -> None:
+        """quality: a name as Quality parses it; files: YAML files with panels, the paper's first."""
+        self.quality = Quality.parse(quality)
         read = [
-            load_configuration(self.selection.quality, file, files[0])
+            load_configuration(self.quality.file, file, files[0])
             for file in files
             if file.exists() or file == files[0]
         ]
         require_distinct([document for document, _ in read])
         default = read[0][1].content["default"]
-        found: dict[str, Panel] = {}
+        planned: dict[str, Panel] = {}
         uses: dict[str, Sequence[str]] = {}
         for document, efforts in read:
             for name, panel in document.content["panels"].items():
-                found[name] = self._panel(name, panel, efforts.content, default, document.file)
+                planned[name] = self._panel(name, panel, efforts.content, default, document)
                 uses[name] = panel.get("uses", ())
         for document, _ in read:
-            self._check(document, found)
+            self._check(document, planned)
         self.panels = {
-            name: replace(panel, plotted=tuple(run for one in (*uses[name], name) for run in found[one].runs))
-            for name, panel in found.items()
+            name: replace(
+                panel, plotted=tuple(run for one in (*uses[name], name) for run in planned[one].runs)
+            )
+            for name, panel in planned.items()
         }
 
     def __getitem__(self, name: str) -> Panel:
         """The panel of this name. Raises ConfigurationError."""
-        require_panel(name, self.panels)
+        if name not in self.panels:
+            raise ConfigurationError(f"{name} is not a panel; {suggestion(name, self.panels)}")
         return self.panels[name]
 
     def __iter__(self) -> Iterator[Panel]:
@@ -191,24 +242,30 @@ class Plan:
     @property
     def paper(self) -> list[Panel]:
         """Panels of `make figures`: the paper's, `accuracy` and `stability`."""
-        return [panel for panel in self if not panel.study]
+        return [panel for panel in self if panel.file == PANELS[0]]
 
     @cached_property
-    def report(self) -> Panel | None:
-        """None without the study."""
+    def report(self) -> Report | None:
+        """None without the study. Panels of the user are not in it."""
         if not STUDY.parent.exists():
             return None
-        inputs = ["workflow/study", "workflow/pipeline", *[NUMBERS] * states_release(self.selection.name)]
+        inputs = ["workflow/study", "workflow/pipeline"]
+        inputs += [NUMBERS] if states_release(self.quality.name) else []
         script = "workflow/study/report.py"
-        return Panel(REPORT, self.selection.name, script, figures=tuple(self), inputs=tuple(inputs))
+        return Report(REPORT, self.quality.name, script, tuple(inputs), tuple(self.reported))
+
+    @property
+    def reported(self) -> list[Panel]:
+        """Panels of the report: those of the paper and of the study."""
+        return [panel for panel in self if panel.file in (PANELS[0], STUDY)]
 
     def _panel(
-        self, name: str, panel: dict[str, Any], efforts: dict[str, Any], default: Options, file: Path
+        self, name: str, panel: dict[str, Any], efforts: dict[str, Any], default: Options, document: Document
     ) -> Panel:
         own = efforts.get("panels", {}).get(name, {})
         runs: list[Run] = []
         replaced: list[str] = []
-        of_panel = {key: value for key, value in own.items() if key in EFFORT_OPTIONS}
+        of_panel = {key: value for key, value in own.items() if key != "omit" and not isinstance(value, dict)}
         for series, program in programs_of(panel).items():
             if series in own.get("omit", ()):
                 continue
@@ -216,21 +273,24 @@ class Plan:
             general = (default, of_panel) if is_sampled(program) else ()
             effort = merge_efforts({}, *general, own.get(series, {}))
             replaced += [f"{key} of {series}" for key in effort if key in physics]
-            runs += self._runs(name, series, program, physics | effort)
-        paths = [
-            f"{folder}/{panel.get('script', name)}.py"
-            for folder in (SCRIPTS.get(file), FIGURE_SCRIPTS)
-            if folder
-        ]
+            where = document.complaint(("panels", name, "series", series), "").rstrip(": ")
+            runs += self._runs(name, series, program, physics | effort, where)
+        folders = [folder for folder in (SCRIPTS.get(document.file), FIGURE_SCRIPTS) if folder]
+        paths = [f"{folder}/{panel.get('script', name)}.py" for folder in folders]
         script = next((path for path in paths if (ROOT / path).exists()), paths[0])
-        inputs = tuple(
-            path for path in panel.get("inputs", ()) if path != NUMBERS or states_release(self.selection.name)
-        )
+        released = states_release(self.quality.name)
+        inputs = tuple(path for path in panel.get("inputs", ()) if path != NUMBERS or released)
         return Panel(
-            name, self.selection.name, script, tuple(runs), (), (), inputs, tuple(replaced), file == STUDY
+            name,
+            self.quality.name,
+            script,
+            inputs,
+            runs=tuple(runs),
+            replaced=tuple(replaced),
+            file=document.file,
         )
 
-    def _runs(self, panel: str, series: str, program: str, options: Options) -> Iterator[Run]:
+    def _runs(self, panel: str, series: str, program: str, options: Options, where: str) -> Iterator[Run]:
         """The runs of a series: one for each combination of the values of options with a list."""
         scale = options.pop("target-scale", None)
         options.pop("program", None)
@@ -240,33 +300,26 @@ class Plan:
             name, one = run_name(series, chosen), options | chosen
             one = {key: evaluated(value, one.get("cells")) for key, value in one.items()}
             if is_sampled(program):
-                one = self.selection.with_effort(f"{panel}/{name}", one, scale)
-            yield Run(name, series, program, one, f"data/{self.selection.name}/{panel}")
+                one = self.quality.with_effort(f"{panel}/{name}", one, scale)
+            yield Run(name, series, program, one, f"data/{self.quality.name}/{panel}", where)
 
     def _check(self, document: Document, planned: dict[str, Panel]) -> None:
         """Raises ConfigurationError for a panel without runs, or with runs or inputs that do not exist."""
         for name, panel in document.content["panels"].items():
-            place = ("panels", name)
+            keys = ("panels", name)
             if "series" in panel and not planned[name].runs and "uses" not in panel:
-                text = f"no runs at quality {self.selection.name}, and no panel whose runs it uses"
-                raise ConfigurationError(document.complaint(place, text))
+                text = f"no runs at quality {self.quality.name}, and no panel whose runs it uses"
+                raise ConfigurationError(document.complaint(keys, text))
+            with_runs = {other for other, one in planned.items() if one.runs and other != name}
             for number, used in enumerate(panel.get("uses", ())):
-                if used not in planned or not planned[used].runs:
-                    text = f"{used} has no runs; {suggestion(used, {*planned} - {name, used})}"
-                    raise ConfigurationError(document.complaint((*place, "uses", number), text))
+                document.require(used, with_runs, (*keys, "uses", number), "panel with runs")
             for number, path in enumerate(panel.get("inputs", ())):
                 inside = not Path(path).is_absolute() and ".." not in Path(path).parts
                 if path != NUMBERS and not (inside and (ROOT / path).exists()):
                     text = f"{path} is not a file or folder below {ROOT}, or not its path from there"
                     raise ConfigurationError(
-                        document.complaint((*place, "inputs", number), f"{text}: write it there")
+                        document.complaint((*keys, "inputs", number), f"{text}: write it there")
                     )
-
-
-def require_panel(name: str, known: Iterable[str]) -> None:
-    """Raises ConfigurationError with the most similar of the known names."""
-    if name not in known:
-        raise ConfigurationError(f"{name} is not a panel; {suggestion(name, known)}")
 
 
 def runs_of(panels: Iterable[Panel]) -> dict[str, Run]:

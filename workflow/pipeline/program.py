@@ -3,18 +3,25 @@
 import os
 import subprocess
 import sys
+from collections import defaultdict
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
 
 from workflow.lib.identity import ROOT
-from workflow.pipeline.configuration import Options, arguments
-from workflow.pipeline.described import DESCRIPTIONS, BuildError, describe
+from workflow.pipeline.configuration import ConfigurationError, Options, arguments
 from workflow.pipeline.plan import Run
 from workflow.pipeline.sources import is_sampled, programs, source_hash
 
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
 REPLICAS_PER_THREAD, MOST_THREADS = 32, 16
+LEAST = 64  # replicas with a target error, as in cpp/program/stopping_rule.hpp
+
+
+class BuildError(ValueError):
+    """A program is missing, or is not built from the present sources."""
 
 
 class ProgramError(ValueError):
@@ -22,10 +29,7 @@ class ProgramError(ValueError):
 
 
 def is_built(program: str) -> bool:
-    """Whether a program is described, starts and states the hash of its present sources. Neither times nor
-    folders decide."""
-    if not (DESCRIPTIONS / f"{program}.json").is_file():
-        return False
+    """Whether a program starts and states the hash of its present sources. Neither times nor folders decide."""
     try:
         done = subprocess.run([PROGRAMS / program, "--version"], capture_output=True, text=True, check=False)
     except OSError:
@@ -41,10 +45,30 @@ def require_built(program: str) -> None:
         raise BuildError(f"build/bin/{program} is {state}: run make build")
 
 
+def require_valid(runs: Iterable[Run]) -> None:
+    """Raises ConfigurationError with one line, for the first run of a series, for each reason why a program
+    refuses its options."""
+
+    def refusal(run: Run) -> tuple[str, Run]:
+        command = [str(PROGRAMS / run.program), *arguments(run.options), "--describe"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        return done.stderr.strip() if done.returncode else "", run
+
+    refused: dict[tuple[str, str], list[Run]] = defaultdict(list)
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
+        for reason, run in threads.map(refusal, runs):
+            if reason:
+                refused[run.where, reason].append(run)
+    if refused:
+        more = {key: f" and {len(alike) - 1} more" if alike[1:] else "" for key, alike in refused.items()}
+        lines = [f"{where}: {refused[where, why][0].name}{more[where, why]}: {why}" for where, why in refused]
+        raise ConfigurationError("\n".join(lines))
+
+
 def compile_programs() -> list[str]:
-    """Compiles the programs unless all are built and described. CXX may choose another compiler, so that
-    the build is checked in any case. Returns the sources that do not compile if others do, after a message.
-    Raises CalledProcessError."""
+    """Compiles the programs unless all are built. CXX may choose another compiler, so that the build is
+    checked in any case. Returns the sources that do not compile if others do, after a message. Raises
+    CalledProcessError."""
 
     def unbuilt() -> list[str]:
         return [name for name in programs() if not is_built(name)]
@@ -53,7 +77,7 @@ def compile_programs() -> list[str]:
     if not lacking and "CXX" not in os.environ:
         return []
     if lacking:
-        number = f"{len(lacking)} program{'s' * (len(lacking) > 1)}"
+        number = f"{len(lacking)} programs" if lacking[1:] else "1 program"
         print(f"Compiling {number}; all ten take about 70 seconds of CPU time", flush=True)
     done = subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=False)
     failed = [f"cpp/observables/{name}.cpp" for name in unbuilt()] if done.returncode else []
@@ -66,8 +90,8 @@ def compile_programs() -> list[str]:
 
 def threads_of(run: Run) -> int:
     """Threads among which the replicas of a run are divided without waste."""
-    least = describe(run.program).get("least_replicas", 1) if "target-error" in run.options else 1
-    return max(1, min(MOST_THREADS, int(run.options.get("replicas", least)) // REPLICAS_PER_THREAD))
+    replicas = run.options.get("replicas", LEAST if "target-error" in run.options else 1)
+    return max(1, min(MOST_THREADS, int(replicas) // REPLICAS_PER_THREAD))
 
 
 def command_line(run: Run, threads: int = 1) -> list[str]:

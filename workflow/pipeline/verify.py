@@ -10,9 +10,10 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from workflow.lib.identity import identity_of
-from workflow.lib.load import FormatError, load
-from workflow.pipeline.compare import equal_values, least_probable
+from workflow.lib.load import FormatError, Result, load
 from workflow.pipeline.lock import lock
 from workflow.pipeline.plan import Plan, runs_of
 from workflow.pipeline.program import ProgramError, execute
@@ -21,6 +22,19 @@ from workflow.pipeline.sources import source_hash
 from workflow.render.files import missing
 
 BUILD = Path("build/verify")  # with a folder for each hash of the sources
+
+
+def differing(one: Result, other: Result) -> list[str]:
+    """Names of the quantities whose arrays differ."""
+
+    def arrays(result: Result, name: str) -> dict[str, np.ndarray]:
+        return result[name].arrays() if name in result.quantities else {}
+
+    def equal(name: str) -> bool:
+        a, b = arrays(one, name), arrays(other, name)
+        return a.keys() == b.keys() and all(np.array_equal(a[part], b[part], equal_nan=True) for part in a)
+
+    return [name for name in {**one.quantities, **other.quantities} if not equal(name)]
 
 
 def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
@@ -32,7 +46,7 @@ def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
     if not names:
         made = random.sample(made, min(len(made), max(1, round(sample * len(made)))))
     if not made:
-        print(f"Nothing to verify: run make figures {plan.selection.arguments}")
+        print(f"Nothing to verify: run make figures {plan.quality.arguments}")
         return 3
     lock(BUILD)
     programs = sorted({runs[path].program for path in made})
@@ -45,17 +59,16 @@ def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
         command = ["bash", "workflow/pipeline/environment/build.sh", *uncompiled]
         if subprocess.run(command, env=os.environ | {"BUILD": str(fresh)}, check=False).returncode:
             return 1
-    differing = failed = 0
+    differ = failed = 0
     for number, path in enumerate(made, 1):
         run, again = runs[path], fresh / "again.h5"
         try:
             execute(run.program, run.options, again, fresh / "bin")
-            one, other = load(path), load(again)
-            equal = equal_values(one, other)
-            differing += not equal
-            text = "equal" if equal else f"differs: {least_probable(one, other)}"
+            quantities = differing(load(path), load(again))
+            differ += bool(quantities)
+            text = f"differs: {', '.join(quantities)}" if quantities else "equal"
         except (FormatError, ProgramError) as error:
             text, failed = str(error), failed + 1
         print(f"{number} of {len(made)}: {path}: {text}", flush=True)
-    print(f"{len(made)} results rerun: {differing} differ, {failed} could not be compared")
-    return 1 if differing else 3 if failed else 0
+    print(f"{len(made)} results rerun: {differ} differ, {failed} could not be compared")
+    return 1 if differ else 3 if failed else 0

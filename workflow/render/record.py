@@ -1,5 +1,5 @@
-"""The record of a panel or of the report, PANEL.IDENTITY.json beside its files: hashes of these, and of their
-parents.
+"""The record of a panel or of the report, PANEL.IDENTITY.json beside its files: hashes of these and of their
+sources, and the results that they are made from.
 
 The identity is a hash of all that determines the files: names of the results, sources, locked packages.
 """
@@ -15,7 +15,6 @@ from typing import Any
 from workflow.lib.identity import IDENTITY, ROOT, identity_of, sha256
 
 FORMATS = ("pdf", "png", "svg", "csv")  # of the files of a panel
-FORMER = "build/records"  # folder of the records of former figures, of which there may be copies
 SHARED = ("workflow/lib", "workflow/physics", "workflow/render", "uv.lock")  # on which all figures depend
 RELEASE = "paper"  # the quality of the release
 NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which other qualities state

@@ -17,15 +17,12 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
-from PIL import Image
-from PIL.PngImagePlugin import PngInfo
 
 from workflow.lib.identity import ROOT, sha256, siblings
 from workflow.render.files import write_atomically
-from workflow.render.record import FORMER, identity_line, record_name
+from workflow.render.record import identity_line, record_name
 
 CREATOR = "lorentz-gas"
-WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
 RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
 
 
@@ -71,24 +68,22 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     contents["csv"] = "\n".join(
         [f"# {text.title}", units, f"# caption: {text.caption}", f"# {line}", numbers]
     ).encode()
-    hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "renderer": renderer(), "doubts": dict(parents.doubts), "parents": hashes}
+    record |= {"commit": commit(), "renderer": renderer(), "doubts": dict(parents.doubts)}
+    record |= {"parents": [*map(str, parents.results)], "sources": dict(parents.sources)}
     write_product(stem, parents.identity, contents, record)
 
 
 def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], record: dict[str, Any]) -> None:
-    """Writes the files of a panel or report by kind, and their record. The record of a former identity
-    moves to FORMER, where provenance finds it. Raises OSError."""
+    """Writes the files of a panel or report by kind, and their record, and removes that of former files. Raises
+    OSError."""
     record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
     text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
     path = stem.with_name(record_name(stem.name, identity))
     files = {stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()}
     write_atomically(files | {path: text.encode()})
     for former in (sibling for sibling in siblings(path) if sibling != path):
-        archived = ROOT / FORMER / stem.parent.name / former.name
-        archived.parent.mkdir(parents=True, exist_ok=True)
-        former.replace(archived)
+        former.unlink()
 
 
 def commit() -> str:
@@ -120,18 +115,3 @@ def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, metadata=metadata)
     return buffer.getvalue()
-
-
-def reduced(picture: Path) -> bytes:
-    """PNG for the gallery, with few colours, at most WIDTH wide, and the texts of the original."""
-    with Image.open(picture, formats=["PNG"]) as original:
-        texts = PngInfo()
-        for name, text in original.info.items():
-            if isinstance(name, str) and isinstance(text, str):
-                texts.add_text(name, text)
-        width = min(WIDTH, original.width)
-        size = (width, round(original.height * width / original.width))
-        scaled = original.convert("RGB").resize(size, Image.Resampling.LANCZOS)
-        content = io.BytesIO()
-        scaled.quantize(COLORS, dither=Image.Dither.NONE).save(content, "PNG", optimize=True, pnginfo=texts)
-        return content.getvalue()

@@ -1,4 +1,4 @@
-"""Writes the report of a selection, figures/QUALITY/report.html with all pictures in it, or the release's page
+"""Writes the report of a quality, figures/QUALITY/report.html with all pictures in it, or the release's page
 docs/gallery/README.md with pictures beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
 """
 
@@ -15,13 +15,13 @@ import jinja2
 import pandas as pd
 
 from workflow.lib.columns import TableError, as_text
-from workflow.lib.identity import ROOT, panel_of, sha256
+from workflow.lib.identity import ROOT, panel_of
 from workflow.lib.load import FormatError, cpu_seconds, load
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import Panel, Plan, runs_of
 from workflow.render.files import format_os_error, write_atomically
 from workflow.render.record import NUMBERS, identity_line, read_record
-from workflow.render.save import commit, reduced, write_product
+from workflow.render.save import commit, write_product
 from workflow.study import typeset
 from workflow.study.judge import Judgement, changed, judge_all, label, of_release
 from workflow.study.results import Results
@@ -46,20 +46,20 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
         keep_trailing_newline=True,
     )
     environment.filters |= {"typeset": typeset.typeset, "markdown": typeset.markdown}
-    selection = plan.selection
-    found = {} if release else of_release(selection.name, root)
+    quality = plan.quality
+    found = {} if release else of_release(quality.name, root)
     rows = [shown(judgement, found) for judgement in judgements]
     figures = defaultdict(list)
     for row in sorted(rows, key=lambda row: str(row["panel"][:5])):  # fig10 after fig09
         figures[typeset.figure_of(row["panel"])].append(row)
     page = environment.get_template("gallery.md.j2" if release else "report.html.j2").render(
-        quality=selection.name,
-        effort=selection.arguments,
+        quality=quality.name,
+        effort=quality.arguments,
         counts={outcome.value: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
         rows=rows,
         figures=figures,
         claims={row["name"]: row for row in rows},
-        panels=[context(panel, root, release=release) for panel in plan],
+        panels=[context(panel, root, release=release) for panel in plan.reported],
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
     return page.encode()
@@ -80,7 +80,7 @@ def context(panel: Panel, root: Path, *, release: bool) -> dict[str, Any]:
             (panel_of(path), f"{run.program} {run.options_text}", cpu_seconds(root / path))
             for path, run in runs.items()
         ],
-        "sources": [path for path in record["parents"] if not path.endswith(".h5")],
+        "sources": [*record["sources"]],
     }
 
 
@@ -144,25 +144,25 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
     return as_text(pd.DataFrame(lines), digits=6).encode()
 
 
-def write(selection: str, root: Path = ROOT, *, gallery: bool = False) -> None:
+def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
     """Writes the report, or the gallery. Raises ConfigurationError, FormatError, OSError."""
-    plan = Plan(selection)
-    results = Results(load(root / path) for path in runs_of(plan))
+    plan = Plan(quality)
+    results = Results(load(root / path) for path in runs_of(plan.reported))
     judgements = judge_all(results, root)
     if not gallery:
-        report, name = plan.report, plan.selection.name
+        report, name = plan.report, plan.quality.name
         assert report
         line = f"<!-- {identity_line(report.name, name, report.identity)} -->\n".encode()
         page = rendered(judgements, plan, root, release=False) + line
         record: dict[str, Any] = {"panel": report.name, "quality": name, "identity": report.identity}
         record |= {"commit": commit()}
-        record["parents"] = {
-            path: sha256((root / path).read_bytes()) for path in report.parents
-        } | report.sources
+        record |= {"parents": report.parents, "sources": report.sources}
         write_product(root / report.stem, report.identity, {"html": page}, record)
         return
     folder = root / GALLERY
-    pictures = {folder / f"{panel.name}.png": reduced(root / f"{panel.stem}.png") for panel in plan}
+    pictures = {
+        folder / f"{panel.name}.png": (root / f"{panel.stem}.png").read_bytes() for panel in plan.reported
+    }
     page = rendered(judgements, plan, root, release=True)
     write_atomically(pictures | {folder / "README.md": page, root / NUMBERS: numbers_file(judgements)})
     for former in {*folder.glob("*.png")} - pictures.keys():
@@ -171,11 +171,11 @@ def write(selection: str, root: Path = ROOT, *, gallery: bool = False) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("selection", help="quality, with an effort as standard_seed=7")
+    parser.add_argument("quality", help="quality, with an effort as standard_seed=7")
     parser.add_argument("--gallery", action="store_true", help="write the gallery instead of the report")
     options = parser.parse_args()
     try:
-        write(options.selection, gallery=options.gallery)
+        write(options.quality, gallery=options.gallery)
     except (ConfigurationError, FormatError, TableError) as error:
         sys.exit(f"make report: {error}")
     except OSError as error:

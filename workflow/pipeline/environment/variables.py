@@ -33,16 +33,12 @@ def clean() -> None:
     os.environ.update({"USER": f"user-{os.getuid()}"} | kept | FIXED)
 
 
-stopped: list[int] = []  # the signal that has stopped this command
-
-
 def stop_at_first_signal() -> None:
     """Ignores a second Ctrl-C or SIGTERM, as `timeout` sends it, which would end in a traceback.
     Snakemake's own handler of SIGTERM waits for a lock that the interrupted code may hold."""
     signals = (signal.SIGINT, signal.SIGTERM)
 
-    def stop(number: int, _: object) -> None:
-        stopped.append(number)
+    def stop(_: int, __: object) -> None:
         for other in signals:
             signal.signal(other, signal.SIG_IGN)
         raise KeyboardInterrupt

@@ -1,4 +1,4 @@
-"""What a command selects: a quality, and an effort in place of that of its file."""
+"""The quality of products: one of workflow/config/quality, with an effort of the command line in place of its own."""
 
 import hashlib
 import re
@@ -25,16 +25,16 @@ EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of
 
 
 @dataclass(frozen=True)
-class Selection:
-    """A quality with the effort of the command line."""
+class Quality:
+    """A file of workflow/config/quality, and the effort of the command line."""
 
-    quality: str
+    file: str
     seed: int | None = None
     replicas: int | None = None
     error: float | None = None  # relative standard error of the target quantity of every run
 
     @classmethod
-    def parse(cls, name: str) -> "Selection":
+    def parse(cls, name: str) -> "Quality":
         """Parses the name of the folder. Raises ConfigurationError."""
         base, *given = name.split("_")
         if base not in QUALITIES:
@@ -58,19 +58,19 @@ class Selection:
 
     @property
     def effort(self) -> dict[str, float]:
-        """What replaces the effort of the quality."""
+        """What replaces the effort of the file."""
         return {key: value for key in EFFORTS if (value := getattr(self, key)) is not None}
 
     @property
     def name(self) -> str:
         """Name of its folders of data and figures: `standard`, or `standard_seed=7_replicas=200`."""
-        return "_".join([self.quality, *(f"{key}={value}" for key, value in self.effort.items())])
+        return "_".join([self.file, *(f"{key}={value}" for key, value in self.effort.items())])
 
     @property
     def arguments(self) -> str:
-        """Arguments of make that select this quality and effort."""
+        """Arguments of make for this quality."""
         return " ".join(
-            [f"QUALITY={self.quality}", *(f"{key.upper()}={value}" for key, value in self.effort.items())]
+            [f"QUALITY={self.file}", *(f"{key.upper()}={value}" for key, value in self.effort.items())]
         )
 
     def with_effort(self, names: str, options: Options, scale: float | None) -> Options:
