@@ -17,7 +17,6 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import options_of_programs
-from workflow.pipeline.polynomial import POLYNOMIAL
 from workflow.pipeline.sources import programs as names_of_programs
 from workflow.render.files import format_os_error
 
@@ -256,20 +255,10 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
         options = options | {ERROR: FRACTION}
     schemas = {
         name: {"if": {"type": "array"}, "then": {"items": option} | several, "else": option}
-        for name, option in ((name, _of_size(name, option)) for name, option in options.items())
+        for name, option in options.items()
         if name not in elsewhere
     }
     return _object(schemas) | {"title": program, "elsewhere": elsewhere}
-
-
-def _of_size(name: str, option: Schema) -> Schema:
-    """Schema of an option in the configuration, where times and gamma may be polynomials in N, which the
-    plan evaluates."""
-    polynomial = {"type": "string", "pattern": f"^{POLYNOMIAL}$"}
-    if not (name.endswith("-time") or name == "gamma"):
-        return option
-    allowed = f"{option['allowed']}, or a sum in N without blanks, as 50+0.01N^2"
-    return {"if": polynomial, "then": True, "else": option | {"allowed": allowed}}
 
 
 def _object(properties: Schema) -> Schema:
