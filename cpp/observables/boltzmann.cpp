@@ -48,16 +48,16 @@ struct Parameters {
 };
 
 void declare(Options& options, Parameters& parameters) {
-  options.real("--sigma", parameters.sigma, {-0.99, 0.99}, "1", "Mass ratio (M-m)/(M+m)");
-  options.real_or_word("--gamma", parameters.gamma, {0, 500}, "N", "1",
+  options.real(Role::physics, "--sigma", parameters.sigma, {-0.99, 0.99}, "1", "Mass ratio (M-m)/(M+m)");
+  options.real_or_word(Role::physics, "--gamma", parameters.gamma, {0, 500}, "N", "1",
                        "Mean number of scatterings on the way through; N: one at each of --cells");
-  options.integer_or_word("--cells", parameters.cells, {1, 500}, "continuum",
+  options.integer_or_word(Role::physics, "--cells", parameters.cells, {1, 500}, "continuum",
                           "Number of scatterers of a mean-field chain");
   declare(options, parameters.left, parameters.right);
-  options.ascending_list("--positions", parameters.positions, {0, 1}, "1",
+  options.ascending_list(Role::output, "--positions", parameters.positions, {0, 1}, "1",
                          "Positions of the continuum's output, over the length of the chain");
   declare(options, parameters.bins);
-  options.real("--target-error", parameters.target_error, non_negative, "1",
+  options.real(Role::effort, "--target-error", parameters.target_error, non_negative, "1",
                "Error of F relative to its maximum, and of the currents, at which the order suffices");
 }
 

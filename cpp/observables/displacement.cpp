@@ -135,7 +135,7 @@ Study displacement(const Parameters& parameters) {
 int main(int argc, char** argv) {
   StudyProgram program("displacement", "Spreading of a tagged particle in a closed chain");
   Parameters parameters;
-  declare(program.options(), parameters);
+  declare(program.options(), parameters, Role::output);
   declare(program.options(), parameters.log_times);
   return program.run(argc, argv, [&] { return displacement(parameters); });
 }

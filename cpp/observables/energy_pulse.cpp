@@ -52,19 +52,21 @@ struct Parameters {
 
 void declare(Options& options, Parameters& parameters) {
   declare(options, parameters.ring);
-  options.real("--energy", parameters.energy, positive, "energy",
+  options.real(Role::physics, "--energy", parameters.energy, positive, "energy",
                "Energy per degree of freedom at the start; the temperature is twice it");
-  options.real("--pulse-energy", parameters.pulse_energy, positive, "energy",
+  options.real(Role::physics, "--pulse-energy", parameters.pulse_energy, positive, "energy",
                "Energy per degree of freedom in the pulse");
-  options.integer("--pulse-cells", parameters.pulse_cells, {1, 100'000'000},
+  options.integer(Role::physics, "--pulse-cells", parameters.pulse_cells, {1, 100'000'000},
                   "Number of cells in the pulse, about the central one");
   options.real_or_word(
-      "--scatterer-temperature", parameters.scatterer_temperature, non_negative, "particles", "temperature",
+      Role::physics, "--scatterer-temperature", parameters.scatterer_temperature, non_negative, "particles",
+      "temperature",
       "Temperature of the scatterers at the start; 0: at rest; particles: that of the particles");
-  options.real("--relaxation-time", parameters.relaxation_time, non_negative, "time",
+  options.real(Role::physics, "--relaxation-time", parameters.relaxation_time, non_negative, "time",
                "Time before the pulse");
-  options.ascending_list("--times", parameters.times, positive, "time", "Times after the pulse");
-  options.integer("--pairs-per-replica", parameters.pairs_per_replica, {1, 1'000'000},
+  options.ascending_list(Role::output, "--times", parameters.times, positive, "time",
+                         "Times after the pulse");
+  options.integer(Role::effort, "--pairs-per-replica", parameters.pairs_per_replica, {1, 1'000'000},
                   "Pairs of trajectories, with the pulse and without, that a replica averages over");
 }
 
@@ -81,18 +83,21 @@ void validate(const Parameters& parameters) {
                    parameters.relaxation_time + parameters.times.back(),
                    "--cell-length, --relaxation-time, --times");
   if (parameters.pulse_energy <= parameters.energy)
-    throw UsageError(
-        "--pulse-energy does not exceed --energy: the pulse would take energy away, and no peak moves. "
-        "Choose "
-        "a higher one.");
+    throw UsageError(fmt::format(
+        "--pulse-energy {} does not exceed --energy {}: the pulse would take energy away, and no peak moves. "
+        "Choose a higher one.",
+        parameters.pulse_energy, parameters.energy));
   if (parameters.pulse_cells > chain.cells)
-    throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
+    throw UsageError(fmt::format("--pulse-cells {} exceeds --cells {}. Choose a smaller pulse.",
+                                 parameters.pulse_cells, chain.cells));
   if (parameters.pulse_cells % 2 == 0)
-    throw UsageError(
-        "--pulse-cells is even: the pulse would not be symmetric about the central cell. Choose an odd "
-        "number.");
+    throw UsageError(fmt::format(
+        "--pulse-cells {} is even: the pulse would not be symmetric about the central cell. Choose an odd "
+        "number.",
+        parameters.pulse_cells));
   if (chain.cells < 7)
-    throw UsageError("--cells is less than 7: a ring so short has no moving peak. Choose more cells.");
+    throw UsageError(fmt::format(
+        "--cells {} is less than 7: a ring so short has no moving peak. Choose more cells.", chain.cells));
   if (parameters.times.size() < 2)
     throw UsageError("--times has one time: the damping exponent needs two. Add another.");
 }

@@ -151,8 +151,8 @@ Study particle_count(const Parameters& parameters) {
 int main(int argc, char** argv) {
   StudyProgram program("particle_count", "Number and momenta of the particles in an open chain");
   Parameters parameters;
-  declare(program.options(), parameters);
-  program.options().ascending_list("--times", parameters.times, positive, "time",
+  declare(program.options(), parameters, Role::physics);
+  program.options().ascending_list(Role::output, "--times", parameters.times, positive, "time",
                                    "Times of the momentum distributions");
   declare(program.options(), parameters.bins);
   return program.run(argc, argv, [&] { return particle_count(parameters); });

@@ -83,6 +83,6 @@ int main(int argc, char** argv) {
   StudyProgram program("persistence",
                        "Probability that a particle keeps its direction when it scatters, in a closed chain");
   ClosedParameters parameters;
-  declare(program.options(), parameters);
+  declare(program.options(), parameters, Role::effort);
   return program.run(argc, argv, [&] { return persistence(parameters); });
 }

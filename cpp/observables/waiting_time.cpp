@@ -163,9 +163,9 @@ int main(int argc, char** argv) {
   StudyProgram program("waiting_time",
                        "Distribution of the time between two scatterings of a particle, in a closed chain");
   Parameters parameters;
-  declare(program.options(), parameters);
+  declare(program.options(), parameters, Role::effort);
   program.options().real(
-      "--tail-from", parameters.tail_from, {1, 1e6}, "1",
+      Role::output, "--tail-from", parameters.tail_from, {1, 1e6}, "1",
       "Lower cut of the tail, in flights of one cell at thermal speed; rounded down to an edge of the bins");
   return program.run(argc, argv, [&] { return waiting_time(parameters); });
 }

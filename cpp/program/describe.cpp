@@ -38,35 +38,19 @@ std::string json(const AttributeValue& value) {
   return text ? quoted(*text) : as_text(value);
 }
 
-/// Type and range of an option that is no choice. A text besides numbers has a pattern; the program alone
-/// checks range and order of the numbers in a list.
-Members values_of(const Option& option) {
-  if (option.is_flag()) return {{"type", quoted("boolean")}};
-  if (option.is_text()) return {{"type", quoted("string")}};
-  std::string pattern = option.words.empty() ? "" : option.words.front();
-  if (option.is_list()) {
-    const std::string number = R"(-?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?)";
-    pattern = fmt::format("{}(,{})*", number, number);
-  }
-  const std::string type = quoted(option.is_whole() ? "integer" : "number");
-  Members members{{"type", pattern.empty() ? type : array({type, quoted("string")})},
-                  {"minimum", option.end(option.range.low)},
-                  {"maximum", option.end(option.range.high)}};
-  if (!pattern.empty()) members.emplace_back("pattern", quoted("^(" + pattern + ")$"));
-  return members;
-}
-
-std::string schema_of(const Option& option) {
-  std::vector<std::string> choices;
-  for (const std::string& word : option.words) choices.push_back(quoted(word));
-  Members schema =
-      option.is_text() && !choices.empty() ? Members{{"enum", array(choices)}} : values_of(option);
-  if (!option.required) schema.emplace_back("default", json(option.default_value));
-  schema.emplace_back("description", quoted(option.help));
-  if (!option.units.empty()) schema.emplace_back("units", quoted(option.units));
-  schema.emplace_back("affects_results", option.role == Option::Role::result ? "true" : "false");
-  schema.emplace_back("allowed", quoted(option.allowed()));
-  return object(schema);
+std::string description_of(const Option& option) {
+  std::vector<std::string> types;
+  if (!option.is_flag() && !option.is_text())
+    types.push_back(quoted(option.is_whole() ? "integer" : "number"));
+  if (option.is_flag()) types.push_back(quoted("boolean"));
+  if (option.is_text() || option.is_list() || !option.words.empty()) types.push_back(quoted("string"));
+  Members members{{"types", array(types)},
+                  {"role", quoted(option.role_name())},
+                  {"required", option.required ? "true" : "false"}};
+  if (!option.units.empty()) members.emplace_back("units", quoted(option.units));
+  if (option.has_default()) members.emplace_back("default", json(option.default_value));
+  if (!option.rule.empty()) members.emplace_back("rule", quoted(option.rule));
+  return object(members);
 }
 
 Members named(const auto& what) {
@@ -78,15 +62,14 @@ Members named(const auto& what) {
 
 std::string describe(const Options& options, const std::string& description,
                      const std::vector<Description>& quantities) {
-  Members result{{"program", quoted(options.program())}, {"description", quoted(description)}}, properties;
+  Members result{{"program", quoted(options.program())}, {"description", quoted(description)}};
+  Members described_options;
   for (const Option& option : options.all()) {
     if (option.name == "--replicas")
       result.emplace_back("least_replicas", fmt::format("{}", StoppingRule::least));
-    properties.emplace_back(option.name.substr(2), schema_of(option));
+    described_options.emplace_back(option.name.substr(2), description_of(option));
   }
-  result.emplace_back("options", object({{"type", quoted("object")},
-                                         {"additionalProperties", "false"},
-                                         {"properties", object(properties)}}));
+  result.emplace_back("options", object(described_options));
   std::vector<std::string> described;
   for (const Description& what : quantities) {
     std::vector<std::string> axes;

@@ -8,8 +8,8 @@
 
 namespace lorentz {
 
-/// What --describe prints: a JSON object with the program, a JSON Schema of its options, and its quantities
-/// with their axes (docs/format.md).
+/// What --describe prints: a JSON object with the program, its options, and its quantities with their
+/// axes (docs/format.md).
 std::string describe(const Options& options, const std::string& description,
                      const std::vector<Description>& quantities);
 

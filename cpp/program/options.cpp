@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -40,7 +41,7 @@ bool read(const std::string& text, const Option& option, Whole& value) {
 
 template <class Number>
 bool read(const std::string& text, const Option& option, std::optional<Number>& value) {
-  if (text != option.words.front()) return read(text, option, value.emplace());
+  if (option.words.empty() || text != option.words.front()) return read(text, option, value.emplace());
   value.reset();
   return true;
 }
@@ -71,7 +72,8 @@ AttributeValue recorded(const Option&, Whole value) {
 }
 template <class Number>
 AttributeValue recorded(const Option& option, const std::optional<Number>& value) {
-  return value ? recorded(option, *value) : AttributeValue(option.words.front());
+  if (value) return recorded(option, *value);
+  return option.words.empty() ? "" : option.words.front();
 }
 AttributeValue recorded(const Option&, const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(values, ","));
@@ -123,6 +125,11 @@ std::string Option::allowed() const {
   return fmt::format("a {}number {}{}", is_whole() ? "whole " : "", numbers, word);
 }
 
+std::string Option::role_name() const {
+  constexpr std::array names{"physics", "effort", "output", "execution"};
+  return names.at(static_cast<std::size_t>(role));
+}
+
 Options::Options(std::string program, std::string description)
     : program_(std::move(program)), description_(std::move(description)) {}
 
@@ -145,9 +152,10 @@ std::string Options::help() const {
   for (const Option& option : options_) {
     std::string about = option.help;
     if (!option.units.empty() && option.units != "1") about += fmt::format(" [{}]", option.units);
-    const std::string value = as_text(option.default_value);
-    if (!option.is_flag() && !value.empty())
-      about += fmt::format(" ({}; {})", option.allowed(), option.required ? "required" : "default " + value);
+    std::string value = "default " + as_text(option.default_value);
+    if (!option.has_default()) value = option.required ? "required" : "required by --rule " + option.rule;
+    if (!option.is_flag() && !(option.is_text() && option.words.empty()))
+      about += fmt::format(" ({}; {})", option.allowed(), value);
     text += line(option.name, about);
   }
   return text + '\n';
@@ -171,13 +179,13 @@ void Options::read(std::span<const char* const> words) {
     const auto option = std::ranges::find(options_, name, &Option::name);
     if (option == options_.end()) refuse_unknown(word);
     if (std::exchange(option->given, true)) refuse(name + " is given more than once");
-    if (option->role == Role::result) option_words_ += (option_words_.empty() ? "" : " ") + word;
+    if (option->role != Role::execution) option_words_ += (option_words_.empty() ? "" : " ") + word;
     std::string value = name == word ? "true" : word.substr(name.size() + 1);
     if (name == word && !option->is_flag()) {
       if (i + 1 == words.size() || std::string_view(words[i + 1]).starts_with("--"))
         refuse(name + " needs a value");
       value = words[++i];
-      if (option->role == Role::result) option_words_ += ' ' + value;
+      if (option->role != Role::execution) option_words_ += ' ' + value;
     }
     if (!option->read(value))
       refuse(fmt::format("{}: '{}' cannot be used: it must be {}", name, value, option->allowed()));
@@ -202,13 +210,15 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
 }
 
 void Options::omit(const std::string& name) {
-  std::ranges::find(options_, name, &Option::name)->role = Role::runtime;
+  std::ranges::find(options_, name, &Option::name)->role = Role::execution;
 }
 
 std::vector<Parameter> Options::parameters() const {
   std::vector<Parameter> result;
   for (const Option& option : options_)
-    if (option.role == Role::result) result.push_back({option.name.substr(2), option.value(), option.units});
+    if (option.role != Role::execution && (option.rule.empty() || option.given))
+      result.push_back(
+          {option.name.substr(2), option.value(), option.units, option.role_name(), option.rule});
   for (Parameter& each : result) std::ranges::replace(each.name, '-', '_');
   std::ranges::sort(result, {}, &Parameter::name);
   return result;

@@ -28,19 +28,23 @@ using AttributeValue = std::variant<bool, std::int64_t, double, std::string>;
 struct Parameter {
   std::string name;  // without the leading dashes
   AttributeValue value;
-  std::string units{};  // as those of Option
+  std::string units{}, role{}, rule{};  // as those of Option
 };
 
 std::string as_text(const AttributeValue& value);
 
-/// One option: its only description, for the command line, --help, messages, the record of parameters in the
-/// output file and the JSON Schema (describe.hpp).
-struct Option {
-  enum class Role {
-    result,   // determines the result: recorded in the output file
-    runtime,  // how the run is conducted: threads, progress, files
-  };
+/// What an option changes. All but those of `execution` determine the result, and are recorded in it.
+enum class Role {
+  physics,    // the model
+  effort,     // only the errors of the numbers
+  output,     // which numbers of the model are written
+  execution,  // nothing in the result: threads, progress, files
+};
 
+/// One option: its only description, for the command line, --help, messages, the record of parameters in the
+/// output file and --describe.
+struct Option {
+  Role role;
   std::string name;  // with the leading dashes
   /// The variable, whose value is the default until the command line sets it. None of an optional one is
   /// stated by a word.
@@ -50,11 +54,11 @@ struct Option {
   Range range;        // of numbers
   std::string units;  // a dimension, such as "temperature" or "1/time", or "1"; empty for words
   std::string help;
-  std::vector<std::string> words;  // choices of a text, or the word for none
-  Role role;
-  bool required = false;           // has no default
-  AttributeValue default_value{};  // set by Options
-  bool given = false;              // on the command line
+  std::vector<std::string> words{};  // choices of a text, or the word for none
+  bool required = false;             // by every run
+  std::string rule{};                // collision rule that alone has and requires the option; empty: none
+  AttributeValue default_value{};    // set by Options
+  bool given = false;                // on the command line
 
   template <class... Types>
   bool is_one_of() const {
@@ -63,10 +67,12 @@ struct Option {
   bool is_flag() const { return is_one_of<bool>(); }
   bool is_text() const { return is_one_of<std::string>(); }
   bool is_list() const { return is_one_of<std::vector<double>>(); }
+  bool has_default() const { return !required && rule.empty(); }
   bool is_whole() const { return is_one_of<std::uint32_t, std::uint64_t, std::optional<std::uint32_t>>(); }
   std::string end(double limit) const;  // an end of the range as text
   AttributeValue value() const;
   std::string allowed() const;  // values, for messages
+  std::string role_name() const;
 
   /// Sets the variable; returns false, with the variable unspecified, if the text is not an allowed value.
   bool read(const std::string& text) const;
@@ -75,47 +81,50 @@ struct Option {
 /// The options of one executable.
 class Options {
  public:
-  using Role = Option::Role;
-
   Options(std::string program, std::string description);
 
   /// Declare an option. Names have their leading dashes.
-  void real(const std::string& name, double& value, Range range, const std::string& units,
-            const std::string& help, Role role = Role::result) {
-    add({name, &value, range, units, help, {}, role});
+  void real(Role role, const std::string& name, double& value, Range range, const std::string& units,
+            const std::string& help) {
+    add({role, name, &value, range, units, help});
   }
   template <class Whole>
-  void integer(const std::string& name, Whole& value, Range range, const std::string& help,
-               Role role = Role::result) {
-    add({name, &value, range, "1", help, {}, role});
+  void integer(Role role, const std::string& name, Whole& value, Range range, const std::string& help) {
+    add({role, name, &value, range, "1", help});
   }
   template <class Whole>
-  void required_integer(const std::string& name, Whole& value, Range range, const std::string& help) {
-    add({name, &value, range, "1", help, {}, Role::result, true});
+  void required_integer(Role role, const std::string& name, Whole& value, Range range,
+                        const std::string& help) {
+    add({role, name, &value, range, "1", help, {}, true});
   }
   /// A number, or a word, for which the value is none: --gamma N.
-  void real_or_word(const std::string& name, std::optional<double>& value, Range range,
+  void real_or_word(Role role, const std::string& name, std::optional<double>& value, Range range,
                     const std::string& word, const std::string& units, const std::string& help) {
-    add({name, &value, range, units, help, {word}, Role::result});
+    add({role, name, &value, range, units, help, {word}});
   }
-  void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value, Range range,
-                       const std::string& word, const std::string& help, Role role = Role::result) {
-    add({name, &value, range, "1", help, {word}, role});
+  void integer_or_word(Role role, const std::string& name, std::optional<std::uint32_t>& value, Range range,
+                       const std::string& word, const std::string& help) {
+    add({role, name, &value, range, "1", help, {word}});
+  }
+  /// A number that a choice of --rule requires, and no other allows: recorded only if it is given.
+  void of_rule(const std::string& rule, const std::string& name, std::optional<double>& value, Range range,
+               const std::string& units, const std::string& help) {
+    add({Role::physics, name, &value, range, units, help, {}, false, rule});
   }
   /// Increasing numbers, separated by commas.
-  void ascending_list(const std::string& name, std::vector<double>& values, Range range,
+  void ascending_list(Role role, const std::string& name, std::vector<double>& values, Range range,
                       const std::string& units, const std::string& help) {
-    add({name, &values, range, units, help, {}, Role::result});
+    add({role, name, &values, range, units, help});
   }
-  void flag(const std::string& name, bool& value, const std::string& help, Role role = Role::result) {
-    add({name, &value, {}, "", help, {}, role});
+  void flag(Role role, const std::string& name, bool& value, const std::string& help) {
+    add({role, name, &value, {}, "", help});
   }
-  void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
-              const std::string& help, Role role = Role::result) {
-    add({name, &value, {}, "", help, choices, role});
+  void choice(Role role, const std::string& name, std::string& value, const std::vector<std::string>& choices,
+              const std::string& help) {
+    add({role, name, &value, {}, "", help, choices});
   }
-  void text(const std::string& name, std::string& value, const std::string& help, Role role = Role::result) {
-    add({name, &value, {}, "", help, {}, role});
+  void text(Role role, const std::string& name, std::string& value, const std::string& help) {
+    add({role, name, &value, {}, "", help});
   }
 
   /// Whether the command line has the option.
@@ -136,7 +145,7 @@ class Options {
   const std::string& option_words() const { return option_words_; }
 
   /// Values of all options that determine the result, sorted by name, as relaxation_time of
-  /// --relaxation-time.
+  /// --relaxation-time; of a rule, those that are given.
   std::vector<Parameter> parameters() const;
 
  private:

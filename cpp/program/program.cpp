@@ -78,15 +78,15 @@ void write_quantity(Hdf5Writer& file, const Quantity& quantity) {
 
 Program::Program(const std::string& name, const std::string& description)
     : options_(name, description), progress_(name), description_(description) {
-  constexpr auto runtime = Options::Role::runtime;
-  options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)", runtime);
+  constexpr Role role = Role::execution;
+  options_.text(role, "--output", output_, "HDF5 file to write, whole or not at all (required)");
   options_.flag(
-      "--overwrite", overwrite_,
-      "Replace an output of other options or another build; without --resume, discard OUTPUT.checkpoint",
-      runtime);
-  options_.choice("--progress", progress_.style, {"log", "none"}, "Display of progress on standard error",
-                  runtime);
-  options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit", runtime);
+      role, "--overwrite", overwrite_,
+      "Replace an output of other options or another build; without --resume, discard OUTPUT.checkpoint");
+  options_.choice(role, "--progress", progress_.style, {"log", "none"},
+                  "Display of progress on standard error");
+  options_.flag(role, "--describe", describe_,
+                "Check the other options, print options and quantities as JSON, then exit");
 }
 
 double Program::elapsed() const {
@@ -109,17 +109,19 @@ void Program::require_replaceable() const {
 ExitStatus Program::write(const RunResult& result) const {
   constexpr std::array names{"reached", "not reached", "no target"};
   Hdf5Writer file;
-  file.group("/parameters");
-  file.group("/parameter_units");  // of those that have a dimension
-  for (const auto& [name, value, units] : options_.parameters()) {
+  for (const char* group : {"/parameters", "/parameter_units", "/parameter_roles", "/parameter_rules"})
+    file.group(group);
+  for (const auto& [name, value, units, role, rule] : options_.parameters()) {
     file.attribute("/parameters", name, value);
     if (!units.empty() && units != "1") file.attribute("/parameter_units", name, units);
+    file.attribute("/parameter_roles", name, role);
+    if (!rule.empty()) file.attribute("/parameter_rules", name, rule);
   }
   for (const Quantity& quantity : result.results) write_quantity(file, quantity);
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{6}},
+      {"format_version", std::int64_t{7}},
       {"program", options_.program()},
       {"option_words", options_.option_words()},
       {"source_hash", std::string(build_info.source_hash)},
@@ -133,7 +135,7 @@ ExitStatus Program::write(const RunResult& result) const {
       {"error_without_control_variates", result.plain_error},
       {"converged", std::string(names.at(static_cast<std::size_t>(result.convergence)))},
   };
-  for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
+  for (const Parameter& each : provenance) file.attribute("/provenance", each.name, each.value);
   file.attribute("/provenance", "digest", file.digest());
   write_atomically(output_, file.image());
   const std::string spent = cost(elapsed(), result.former_seconds + cpu_seconds(), result.events);

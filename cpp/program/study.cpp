@@ -56,24 +56,24 @@ StudyProgram::StudyProgram(const std::string& name, const std::string& descripti
 
 int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make) {
   Options& options = this->options();
-  constexpr auto runtime = Options::Role::runtime;
-  options.integer("--replicas", replicas_, {1, 100'000'000},
+  using enum Role;
+  options.integer(effort, "--replicas", replicas_, {1, 100'000'000},
                   "Independent replicas; not with a target error, which determines their number");
-  options.required_integer("--seed", seed_, {},
+  options.required_integer(effort, "--seed", seed_, {},
                            "Key of all random streams; runs with the same seed have correlated results, so "
                            "give each run of a scan its own");
-  options.real("--target-error", target_error_, non_negative, "1",
+  options.real(effort, "--target-error", target_error_, non_negative, "1",
                fmt::format("Add replicas, {} at least, until the standard error of the target quantity, "
                            "relative to its mean, is below this with 95 % confidence; 0: no target",
                            StoppingRule::least));
-  options.real("--target-scale", target_scale_, non_negative, "",
+  options.real(effort, "--target-scale", target_scale_, non_negative, "",
                "Number in the target quantity's units to which the target error is relative instead, for a "
                "mean that may be 0; 0: the mean");
-  options.integer_or_word("--threads", threads_, {1, 4096}, "processors",
-                          "Threads, on which no result depends; processors: one for each", runtime);
-  options.real("--checkpoint-interval", checkpoint_interval_, positive, "second",
-               "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
-  options.flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
+  options.integer_or_word(execution, "--threads", threads_, {1, 4096}, "processors",
+                          "Threads, on which no result depends; processors: one for each");
+  options.real(execution, "--checkpoint-interval", checkpoint_interval_, positive, "second",
+               "Seconds between checkpoints in OUTPUT.checkpoint");
+  options.flag(execution, "--resume", resume_, "Resume from OUTPUT.checkpoint if it exists");
   const auto plan = [&] {
     if (target_error_ > 0) {
       if (options.given("--replicas"))

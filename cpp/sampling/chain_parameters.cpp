@@ -15,8 +15,8 @@ namespace lorentz {
 namespace {
 
 /// Name of an option of a rule on the command line.
-std::string flag(const RuleProperties& rule, const RuleOption& option) {
-  return fmt::format("--{}-{}", rule.name, option.name);
+std::string flag(std::string_view rule, std::string_view option) {
+  return fmt::format("--{}-{}", rule, option);
 }
 
 }  // namespace
@@ -24,10 +24,9 @@ std::string flag(const RuleProperties& rule, const RuleOption& option) {
 const RuleProperties& RuleParameters::properties() const { return rule_properties(name); }
 
 RuleChoice RuleParameters::choice() const {
-  const RuleProperties& rule = properties();
-  RuleChoice choice{rule.name};
-  for (const RuleOption& option : rule.options)
-    choice.options.push_back(std::ranges::find(options, flag(rule, option), &Value::option)->value.value());
+  RuleChoice choice{properties().name};
+  if (const auto values = options.find(choice.name); values != options.end())
+    for (const std::optional<double>& value : values->second) choice.options.push_back(value.value());
   return choice;
 }
 
@@ -37,13 +36,13 @@ double ScatteringParameters::mean_scatterings() const {
 
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range) {
   declare_without_gamma(options, parameters);
-  options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
+  options.real_or_word(Role::physics, "--gamma", parameters.gamma, gamma_range, "N", "1",
                        "Mean number of scatterings in N cells; N: every scatterer scatters");
 }
 
 void declare_without_gamma(Options& options, ScatteringParameters& parameters) {
-  options.integer("--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
-  options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
+  options.integer(Role::physics, "--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
+  options.real(Role::physics, "--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
   declare(options, parameters.rule);
 }
 
@@ -53,35 +52,38 @@ void declare(Options& options, RuleParameters& parameters) {
     names.emplace_back(each.name);
     descriptions.push_back(fmt::format("{}: {}", each.name, each.description));
   }
-  options.choice("--rule", parameters.name, names,
+  options.choice(Role::physics, "--rule", parameters.name, names,
                  fmt::format("Collision. {}", fmt::join(descriptions, "; ")));
-  for (const RuleProperties& rule : rules::all)
-    for (const RuleOption& option : rule.options) parameters.options.push_back({flag(rule, option), {}});
-  auto at = parameters.options.begin();
   for (const RuleProperties& rule : rules::all) {
-    for (const RuleOption& option : rule.options) {
-      auto& [name, value] = *at++;
-      options.real_or_word(name, value, {option.low, option.high}, "none", std::string(option.units),
-                           fmt::format("{}; required by --rule {}", option.description, rule.name));
+    std::vector<std::optional<double>>& values = parameters.options[rule.name];
+    values.resize(rule.options.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto& [name, units, description, low, high] = rule.options[k];
+      options.of_rule(std::string(rule.name), flag(rule.name, name), values[k], {low, high},
+                      std::string(units), std::string(description));
     }
   }
 }
 
 void validate(const RuleParameters& parameters) {
-  for (const auto& [name, value] : parameters.options) {
-    const bool own = name.starts_with(fmt::format("--{}-", parameters.name));
-    if (own && !value)
-      throw UsageError(fmt::format("--rule {}: {} is missing. Give it a number.", parameters.name, name));
-    if (!own && value)
-      throw UsageError(fmt::format("{} has no effect with --rule {}. Leave it out, or choose another --rule.",
-                                   name, parameters.name));
-  }
+  for (const RuleProperties& rule : rules::all)
+    for (std::size_t k = 0; k < rule.options.size(); ++k) {
+      const bool chosen = rule.name == parameters.name,
+                 given = parameters.options.at(rule.name)[k].has_value();
+      const std::string option = flag(rule.name, rule.options[k].name);
+      if (chosen && !given)
+        throw UsageError(fmt::format("--rule {}: {} is missing. Give it a number.", rule.name, option));
+      if (!chosen && given)
+        throw UsageError(fmt::format("{} has no effect with --rule {}. Leave it out, or choose --rule {}.",
+                                     option, parameters.name, rule.name));
+    }
 }
 
 void require_probability(std::optional<double> gamma, std::uint32_t cells) {
   if (gamma && *gamma > cells)
-    throw UsageError(
-        "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
+    throw UsageError(fmt::format(
+        "--gamma {} exceeds --cells {}: gamma/N is a probability. Choose more cells or a smaller gamma.",
+        *gamma, cells));
 }
 
 void require_memory(double particles, const std::string& options) {
@@ -117,13 +119,13 @@ void validate(const ScatteringParameters& parameters) {
 }
 
 void declare(Options& options, Reservoir& left, Reservoir& right) {
-  options.real("--nu-left", left.rate, non_negative, "1/time",
+  options.real(Role::physics, "--nu-left", left.rate, non_negative, "1/time",
                "Particles injected at the left per unit time");
-  options.real("--nu-right", right.rate, non_negative, "1/time",
+  options.real(Role::physics, "--nu-right", right.rate, non_negative, "1/time",
                "Particles injected at the right per unit time");
-  options.real("--temperature-left", left.temperature, positive, "temperature",
+  options.real(Role::physics, "--temperature-left", left.temperature, positive, "temperature",
                "Temperature of the left reservoir");
-  options.real("--temperature-right", right.temperature, positive, "temperature",
+  options.real(Role::physics, "--temperature-right", right.temperature, positive, "temperature",
                "Temperature of the right reservoir");
 }
 
@@ -138,9 +140,10 @@ ClosedChain ClosedChainParameters::chain() const {
 
 void declare(Options& options, ClosedChainParameters& parameters) {
   declare(options, parameters.scattering, positive);
-  options.integer("--particles-per-cell", parameters.particles_per_cell, {1, 100'000'000},
+  options.integer(Role::physics, "--particles-per-cell", parameters.particles_per_cell, {1, 100'000'000},
                   "Number of particles per cell n");
-  options.real("--cell-length", parameters.cell_length, positive, "length", "Distance between scatterers");
+  options.real(Role::physics, "--cell-length", parameters.cell_length, positive, "length",
+               "Distance between scatterers");
 }
 
 }  // namespace lorentz

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/closed_chain.hpp"
@@ -15,12 +17,9 @@ namespace lorentz {
 
 /// A collision rule, and the options of all rules.
 struct RuleParameters {
-  struct Value {
-    std::string option;           // of the command line
-    std::optional<double> value;  // none: not given
-  };
   std::string name{Elastic::properties.name};
-  std::vector<Value> options{};
+  /// Values of the options of every rule, by its name and in their order; none: not given.
+  std::map<std::string_view, std::vector<std::optional<double>>> options{};
 
   const RuleProperties& properties() const;
   RuleChoice choice() const;

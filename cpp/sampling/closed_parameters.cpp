@@ -31,17 +31,17 @@ double ClosedParameters::mean_square_momentum() const {
 
 double ClosedParameters::longest_clock() const { return 0x1p32 * ring.cell_length / std::sqrt(hottest()); }
 
-void declare(Options& options, ClosedParameters& parameters) {
+void declare(Options& options, ClosedParameters& parameters, Role observation) {
   declare(options, parameters.ring);
-  options.real("--temperature", parameters.temperature, positive, "temperature",
+  options.real(Role::physics, "--temperature", parameters.temperature, positive, "temperature",
                "Temperature of the particles at the start");
-  options.real("--scatterer-temperature", parameters.scatterer_temperature, non_negative, "temperature",
-               "Temperature of the scatterers at the start; 0: at rest");
-  options.flag("--zero-total-momentum", parameters.zero_total_momentum,
+  options.real(Role::physics, "--scatterer-temperature", parameters.scatterer_temperature, non_negative,
+               "temperature", "Temperature of the scatterers at the start; 0: at rest");
+  options.flag(Role::physics, "--zero-total-momentum", parameters.zero_total_momentum,
                "Shift the particles' momenta at the start so that the total momentum is 0");
-  options.real("--relaxation-time", parameters.relaxation_time, non_negative, "time",
+  options.real(Role::physics, "--relaxation-time", parameters.relaxation_time, non_negative, "time",
                "Time before the measurement");
-  options.real("--observation-time", parameters.observation_time, positive, "time",
+  options.real(observation, "--observation-time", parameters.observation_time, positive, "time",
                "Time of the measurement");
 }
 

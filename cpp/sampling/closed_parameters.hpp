@@ -38,7 +38,9 @@ struct ClosedParameters {
   double longest_clock() const;
 };
 
-void declare(Options& options, ClosedParameters& parameters);
+/// Results depend on the age of the chain, so that the relaxation is physics. `observation` is the role of
+/// the observation: the window of an average, or the last time of the output.
+void declare(Options& options, ClosedParameters& parameters, Role observation);
 
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const ClosedParameters& parameters);

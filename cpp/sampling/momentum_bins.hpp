@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 
 #include "program/errors.hpp"
@@ -19,16 +21,18 @@ struct MomentumBinParameters {
 
 /// Declares --momentum-bins and --momentum-max.
 inline void declare(Options& options, MomentumBinParameters& parameters) {
-  options.integer("--momentum-bins", parameters.count, {2, 100'000}, "Number of bins of momentum, even");
-  options.real("--momentum-max", parameters.max, positive, "momentum",
+  options.integer(Role::output, "--momentum-bins", parameters.count, {2, 100'000},
+                  "Number of bins of momentum, even");
+  options.real(Role::output, "--momentum-max", parameters.max, positive, "momentum",
                "The bins span from minus this momentum to plus it");
 }
 
 /// Throws UsageError if the number of bins is odd, as no edge would lie at 0.
 inline void validate(const MomentumBinParameters& parameters) {
   if (parameters.count % 2 != 0)
-    throw UsageError(
-        "--momentum-bins is odd: no edge would lie at 0, where the flux jumps. Choose an even number.");
+    throw UsageError(fmt::format(
+        "--momentum-bins {} is odd: no edge would lie at 0, where the flux jumps. Choose an even number.",
+        parameters.count));
 }
 
 inline Axis momentum_axis(const Bins& bins) {

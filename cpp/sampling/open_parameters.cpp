@@ -24,21 +24,21 @@ PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {
   return local_equilibrium_start(chain(), everywhere, everywhere, age, key);
 }
 
-void declare(Options& options, OpenParameters& parameters) {
+void declare(Options& options, OpenParameters& parameters, Role start) {
   declare(options, parameters.scattering, non_negative);
-  options.real_or_word("--cell-length", parameters.cell_length, positive, "1/N", "length",
+  options.real_or_word(Role::physics, "--cell-length", parameters.cell_length, positive, "1/N", "length",
                        "Distance between scatterers");
   declare(options, parameters.left, parameters.right);
-  options.choice("--start", parameters.start, {"empty", "warm", "cold", "hot"},
+  options.choice(start, "--start", parameters.start, {"empty", "warm", "cold", "hot"},
                  "empty: no particles, scatterers at rest; warm: near the stationary state; cold, hot: as in "
                  "equilibrium with the colder, hotter reservoir");
 }
 
 void declare(Options& options, StationaryParameters& parameters) {
-  declare(options, static_cast<OpenParameters&>(parameters));
-  options.real("--relaxation-time", parameters.relaxation_time, non_negative, "time",
+  declare(options, static_cast<OpenParameters&>(parameters), Role::effort);
+  options.real(Role::effort, "--relaxation-time", parameters.relaxation_time, non_negative, "time",
                "Time before the measurement");
-  options.real("--observation-time", parameters.observation_time, positive, "time",
+  options.real(Role::effort, "--observation-time", parameters.observation_time, positive, "time",
                "Time of the measurement");
 }
 

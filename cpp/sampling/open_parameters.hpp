@@ -34,7 +34,8 @@ struct StationaryParameters : OpenParameters {
   Window window() const { return {relaxation_time, relaxation_time + observation_time}; }
 };
 
-void declare(Options& options, OpenParameters& parameters);
+/// `start` is the role of the initial state, on which stationary results do not depend.
+void declare(Options& options, OpenParameters& parameters, Role start);
 void declare(Options& options, StationaryParameters& parameters);
 
 /// Throw UsageError if options that are valid one by one exclude each other, for a run until `end`, which the

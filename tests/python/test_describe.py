@@ -1,17 +1,80 @@
-"""What the programs declare: JSON Schema of their options, by which the configuration is checked."""
+"""What the programs declare about their options, and how they check a run without computing it."""
+
+import subprocess
 
 import pytest
-from jsonschema import Draft202012Validator
 
-from workflow.pipeline.described import described
+from tests.python.conftest import ROOT, Measure
+from workflow.pipeline.described import described, options_of_programs
+
+# Decisions that a reader of a caption, or who chooses an effort, relies on.
+ROLES = {
+    "physics": "cells sigma gamma rule rotation-probability cell-length particles-per-cell temperature "
+    "temperature-left nu-right scatterer-temperature zero-total-momentum energy pulse-energy pulse-cells fugacity",
+    "effort": "replicas seed target-error target-scale pairs-per-replica",
+    "output": "times momentum-bins momentum-max decades fit-decades fit-from tail-from positions",
+    "execution": "threads progress output overwrite resume checkpoint-interval describe",
+}
+ROLES_IN_PROGRAMS = {
+    ("relaxation-time", "persistence"): "physics",  # results depend on the age of a closed chain
+    ("relaxation-time", "conductivity"): "effort",
+    ("observation-time", "conductivity"): "effort",
+    ("observation-time", "waiting_time"): "effort",
+    ("observation-time", "displacement"): "output",  # the last of the times
+    ("start", "momentum_flux"): "effort",
+    ("start", "particle_count"): "physics",
+}
+
+
+def check(program: str, *words: str) -> subprocess.CompletedProcess:
+    command = [ROOT / "build/bin" / program, *words, "--describe"]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize("program", described())
-def test_the_schema_of_every_option_is_valid_and_accepts_the_default(program: str) -> None:
-    options = described()[program]["options"]
-    Draft202012Validator.check_schema(options)
-    defaults = {name: one["default"] for name, one in options["properties"].items() if "default" in one}
-    assert {*options["properties"]} - {*defaults} <= {"seed"}
-    assert Draft202012Validator(options).is_valid(defaults)
-    assert not Draft202012Validator(options).is_valid({"other": 1})
-    assert all(schema["allowed"] for schema in options["properties"].values())
+def test_every_option_has_types_a_role_and_a_default_unless_it_is_required(program: str) -> None:
+    for name, option in described()[program]["options"].items():
+        assert option["types"], name
+        assert option["role"] in ROLES, name
+        assert ("default" in option) == (not option["required"] and "rule" not in option), name
+    required = {name for name, option in described()[program]["options"].items() if option["required"]}
+    assert required == {"seed"} & options_of_programs()[program].keys()
+
+
+def test_roles() -> None:
+    roles = {
+        (name, program): option["role"]
+        for program, description in described().items()
+        for name, option in description["options"].items()
+    }
+    for role, names in ROLES.items():
+        for name in names.split():
+            assert {found for key, found in roles.items() if key[0] == name} == {role}, name
+    assert ROLES_IN_PROGRAMS.items() <= roles.items()
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("--cells", "11", "--gamma", "12"), ("--gamma 12", "--cells 11")),
+        (("--cells", "0"), ("--cells", "'0'", "from 1 to")),
+        (("--cels", "11"), ("--cels", "did you mean --cells")),
+        (("--rule", "rotation"), ("--rotation-probability", "--rule rotation")),
+        (("--rotation-probability", "0.1"), ("--rotation-probability", "--rule elastic")),
+        (("--rule", "tepid"), ("--rule", "'tepid'", "random-direction")),
+    ],
+)
+def test_a_run_is_checked_without_computing_it(words: tuple[str, ...], named: tuple[str, ...]) -> None:
+    done = check("persistence", *words)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert all(part in done.stderr for part in named), done.stderr
+    assert check("persistence", "--cells", "13", "--gamma", "12").returncode == 0
+
+
+def test_a_result_has_the_options_of_its_rule_alone(measure: Measure) -> None:
+    rotation = measure("persistence", rule="rotation", rotation_probability=0.3)
+    assert rotation.parameter_rules == {"rotation_probability": "rotation"}
+    assert rotation.parameters["rotation_probability"] == 0.3
+    elastic = measure("persistence")
+    assert elastic.parameter_rules == {}
+    assert not {"rotation_probability", "reversal_probability"} & elastic.parameters.keys()

@@ -19,10 +19,9 @@ PROVENANCE = {"format", "format_version", "program", "option_words", "source_has
 TYPES = {"integer": int, "number": float, "boolean": bool, "string": str}
 
 
-def types(schema: dict[str, Any]) -> set[type]:
-    """Types that an option may have: an enum has words only."""
-    names = schema.get("type", "string")
-    return {TYPES[name] for name in ([names] if isinstance(names, str) else names)}
+def types(option: dict[str, Any]) -> set[type]:
+    """Types that an option may have."""
+    return {TYPES[name] for name in option["types"]}
 
 
 def axes_of(dataset: h5py.Dataset) -> list[h5py.Dataset]:
@@ -64,8 +63,11 @@ def test_files_have_the_described_content_and_the_same_bytes_for_any_threads(
         assert {file[group].attrs[key].dtype.name for group in ("parameters", "provenance") for key in file[group].attrs
                 if not isinstance(file[group].attrs[key], str | bytes)} <= signed | {"bytes"}  # fmt: skip
     options = options_of_programs()[name]
-    for key, value in load(tmp_path / "1.h5").parameters.items():
-        assert type(value) in types(options[key.replace("_", "-")]), key
+    result = load(tmp_path / "1.h5")
+    for key, value in result.parameters.items():
+        option = options[key.replace("_", "-")]
+        assert type(value) in types(option), key
+        assert result.parameter_roles[key] == option["role"], key
 
 
 def test_an_option_has_one_type_in_all_programs() -> None:

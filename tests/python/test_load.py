@@ -11,7 +11,16 @@ import pytest
 from tests.python.conftest import Program
 from workflow.lib import caption
 from workflow.lib.identity import result_identity
-from workflow.lib.load import FormatError, Quantity, Result, digest, load, load_provenance, nodes_of
+from workflow.lib.load import (
+    FORMAT_VERSION,
+    FormatError,
+    Quantity,
+    Result,
+    digest,
+    load,
+    load_provenance,
+    nodes_of,
+)
 
 FLUX = (
     "results/flux"  # over 4 bonds and 4 bins of the momentum, so that lengths do not identify the dimensions
@@ -103,7 +112,10 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (Path.unlink, " is missing"),
         (lambda path: path.write_bytes(path.read_bytes()[:3000]), " is damaged, or not a result file: "),
         (attribute("format", "another"), ": not a result of this project"),
-        (attribute("format_version", 2), ": format version 2, not 6; remake it with make figures"),
+        (
+            attribute("format_version", 2),
+            f": format version 2, not {FORMAT_VERSION}; remake it with make figures",
+        ),
     ],
 )
 def test_load_refuses_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:

@@ -22,7 +22,7 @@ from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 6
+FORMAT_VERSION = 7
 NOT_IN_DIGEST = {
     "digest",
     "CLASS",
@@ -112,6 +112,8 @@ class Result:
     provenance: dict[str, Any]
     quantities: dict[str, Quantity]
     parameter_units: dict[str, str] = field(default_factory=dict)  # of those that have a dimension
+    parameter_roles: dict[str, str] = field(default_factory=dict)  # physics, effort or output
+    parameter_rules: dict[str, str] = field(default_factory=dict)  # the rule of its options
 
     def __repr__(self) -> str:
         """Program, options, target quantity, doubts: a line each."""
@@ -201,8 +203,10 @@ def load(path: Path | str) -> Result:
             *_, quantity, part = name.split("/")
             quantities.setdefault(quantity, {})[part] = dataset
         read = {name: _quantity(parts) for name, parts in quantities.items()}
-        parameters, units = _attributes(file["parameters"]), _attributes(file["parameter_units"])
-        return Result(Path(path), parameters, provenance, read, units)
+        parameters, *described = (
+            _attributes(file[f"parameter{kind}"]) for kind in ("s", "_units", "_roles", "_rules")
+        )
+        return Result(Path(path), parameters, provenance, read, *described)
 
 
 def load_provenance(path: Path | str) -> dict[str, Any]:

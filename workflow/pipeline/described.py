@@ -26,12 +26,12 @@ def described() -> dict[str, dict[str, Any]]:
 
 
 def options_of_programs() -> dict[str, dict[str, dict[str, Any]]]:
-    """JSON Schema of every option that determines a result, by compiled program and name."""
+    """Description of every option that determines a result, by compiled program and name."""
     return {
         name: {
-            option: schema
-            for option, schema in program["options"]["properties"].items()
-            if schema["affects_results"]
+            option: description
+            for option, description in program["options"].items()
+            if description["role"] != "execution"
         }
         for name, program in described().items()
     }

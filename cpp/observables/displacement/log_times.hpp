@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <vector>
 
@@ -30,18 +32,19 @@ struct LogTimeParameters {
 
 /// Declares --decades and --fit-decades.
 inline void declare(Options& options, LogTimeParameters& parameters) {
-  options.real("--decades", parameters.decades, {1, 15}, "1",
+  options.real(Role::output, "--decades", parameters.decades, {1, 15}, "1",
                "Decades of time that the grid spans, up to the observation time");
-  options.real("--fit-decades", parameters.fit_decades, {0.25, 15}, "1",
+  options.real(Role::output, "--fit-decades", parameters.fit_decades, {0.25, 15}, "1",
                "Number of last decades of time that are fitted");
 }
 
 /// Throws UsageError if the fit would begin before the grid does.
 inline void validate(const LogTimeParameters& parameters) {
   if (parameters.fit_decades > parameters.decades)
-    throw UsageError(
-        "--fit-decades exceeds --decades: the fit would begin before the first time. Choose fewer decades of "
-        "the fit, or more of the grid.");
+    throw UsageError(fmt::format(
+        "--fit-decades {} exceeds --decades {}: the fit would begin before the first time. Choose fewer "
+        "decades of the fit, or more of the grid.",
+        parameters.fit_decades, parameters.decades));
 }
 
 }  // namespace lorentz

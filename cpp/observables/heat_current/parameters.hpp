@@ -54,15 +54,17 @@ inline std::vector<std::size_t> lags(const std::vector<double>& times) {
 /// Declares all of them; every scatterer scatters.
 inline void declare(Options& options, HeatCurrentParameters& parameters) {
   declare_without_gamma(options, parameters.ring.scattering);
-  options.real("--cell-length", parameters.ring.cell_length, positive, "length",
+  options.real(Role::physics, "--cell-length", parameters.ring.cell_length, positive, "length",
                "Distance between scatterers");
-  options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");
-  options.real("--fugacity", *parameters.fugacity, positive, "1/length",
+  options.real(Role::physics, "--temperature", parameters.temperature, positive, "temperature",
+               "Temperature");
+  options.real(Role::physics, "--fugacity", *parameters.fugacity, positive, "1/length",
                "z of the flux z exp(-p^2/2T) in the stationary state, from which a run starts");
-  options.real("--observation-time", parameters.observation_time, positive, "time", "Time of the record");
-  options.ascending_list("--times", parameters.times, positive, "time",
+  options.real(Role::effort, "--observation-time", parameters.observation_time, positive, "time",
+               "Time of the record");
+  options.ascending_list(Role::output, "--times", parameters.times, positive, "time",
                          "Times over which the current is integrated, multiples of the first");
-  options.real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
+  options.real(Role::output, "--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
 }
 
 /// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. 56, 57].
@@ -91,7 +93,9 @@ inline void validate(const HeatCurrentParameters& parameters) {
   validate(static_cast<const ClosedParameters&>(parameters));
   const std::vector<double>& times = parameters.times;
   if (times.back() > parameters.observation_time)
-    throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
+    throw UsageError(
+        fmt::format("--times: {} is beyond --observation-time {}. Choose a longer one, or earlier times.",
+                    times.back(), parameters.observation_time));
   constexpr double most_intervals = 1e8;
   if (parameters.observation_time > most_intervals * times.front())
     throw UsageError(fmt::format(

@@ -38,7 +38,7 @@ std::vector<std::byte> image() {
   file.array("/results", {"number", "1", "A number"}, std::vector{0.25});
   file.array("/results", {"nothing", "1", "Nothing", {axis("none", 0)}}, std::vector<double>{});
   file.group("/parameters");
-  for (const auto& [name, value, units] : parameters) file.attribute("/parameters", name, value);
+  for (const Parameter& each : parameters) file.attribute("/parameters", each.name, each.value);
   return file.image();
 }
 
@@ -53,9 +53,9 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_EQ(file.doubles("/results/number"), std::vector{0.25});
   EXPECT_TRUE(file.doubles("/results/nothing").empty());
   EXPECT_TRUE(file.has_attribute("/results/profile/mean", "units", std::string("time")));
-  for (const auto& [name, value, units] : parameters)
-    for (const auto& [other, other_value, other_units] : parameters)
-      EXPECT_EQ(file.has_attribute("/parameters", name, other_value), name == other) << name << other;
+  for (const Parameter& a : parameters)
+    for (const Parameter& b : parameters)
+      EXPECT_EQ(file.has_attribute("/parameters", a.name, b.value), a.name == b.name) << a.name << b.name;
   EXPECT_FALSE(file.has_attribute("/parameters", "text", std::string("\xcf\x83 = 1/")));
   EXPECT_FALSE(file.has_attribute("/parameters", "absent", true));
 }

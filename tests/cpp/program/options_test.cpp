@@ -26,18 +26,18 @@ struct Example {
   Options options{"example", "An example"};
 
   Example() {
-    options.real("--sigma", sigma, {-1, 1}, "1", "Mass ratio");
-    options.real("--temperature", temperature, positive, "temperature", "Temperature");
-    options.real("--relaxation-time", relaxation, non_negative, "time", "Time");
-    options.real_or_word("--gamma", gamma, non_negative, "N", "1", "Scatterings");
-    options.integer_or_word("--sites", sites, {1, 300}, "continuum", "Sites");
-    options.ascending_list("--times", times, {0, 10}, "time", "Times");
-    options.integer("--cells", cells, {1, 100}, "Cells");
-    options.integer("--seed", seed, {}, "Seed");
-    options.flag("--zero-total-momentum", shifted, "Shift");
-    options.choice("--start", start, {"empty", "warm"}, "Start");
-    options.text("--output", output, "File", Options::Role::runtime);
-    options.integer("--threads", threads, {1, 4096}, "Threads", Options::Role::runtime);
+    options.real(Role::physics, "--sigma", sigma, {-1, 1}, "1", "Mass ratio");
+    options.real(Role::physics, "--temperature", temperature, positive, "temperature", "Temperature");
+    options.real(Role::physics, "--relaxation-time", relaxation, non_negative, "time", "Time");
+    options.real_or_word(Role::physics, "--gamma", gamma, non_negative, "N", "1", "Scatterings");
+    options.integer_or_word(Role::physics, "--sites", sites, {1, 300}, "continuum", "Sites");
+    options.ascending_list(Role::physics, "--times", times, {0, 10}, "time", "Times");
+    options.integer(Role::physics, "--cells", cells, {1, 100}, "Cells");
+    options.integer(Role::physics, "--seed", seed, {}, "Seed");
+    options.flag(Role::physics, "--zero-total-momentum", shifted, "Shift");
+    options.choice(Role::physics, "--start", start, {"empty", "warm"}, "Start");
+    options.text(Role::execution, "--output", output, "File");
+    options.integer(Role::execution, "--threads", threads, {1, 4096}, "Threads");
   }
 
   /// Parses the arguments. Returns the text that is printed instead of a run, as for --help.
@@ -127,6 +127,21 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
   EXPECT_FALSE(words.parse({"--sites", "continuum", "--gamma", "N"}));
   EXPECT_EQ(words.sites, std::nullopt);
   EXPECT_EQ(words.gamma, std::nullopt);
+}
+
+// Detected mistake: an option that a rule requires is recorded with other rules, too.
+TEST(Options, AreRecordedWithTheirRole) {
+  Example example;
+  std::optional<double> of_flip, of_flip_twice;
+  example.options.of_rule("flip", "--flip-twice-angle", of_flip, {0, 1}, "1", "Angle");
+  example.options.of_rule("flip-twice", "--flip-twice-rate", of_flip_twice, {0, 1}, "1", "Rate");
+  example.parse({"--flip-twice-rate", "0.3"});
+  std::vector<std::string> rules;
+  for (const Parameter& each : example.options.parameters()) {
+    EXPECT_EQ(each.role, "physics") << each.name;
+    if (!each.rule.empty()) rules.push_back(each.name + " of " + each.rule);
+  }
+  EXPECT_EQ(rules, Arguments{"flip_twice_rate of flip-twice"});
 }
 
 TEST(Options, KeepTheirWordsAsGiven) {
