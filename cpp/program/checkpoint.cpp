@@ -11,10 +11,8 @@
 #include "statistics/tally.hpp"
 
 namespace lorentz {
-namespace {
-
-void write(Hdf5Writer& file, const std::string& identity, double cpu_seconds,
-           const FinishedReplicas& finished) {
+void Checkpoint::save(const FinishedReplicas& finished) const {
+  Hdf5Writer file;
   std::vector<std::int64_t> indices, events;
   std::vector<double> values;
   for (const auto& [index, one] : finished) {
@@ -28,22 +26,15 @@ void write(Hdf5Writer& file, const std::string& identity, double cpu_seconds,
   file.array("/replicas", {"events", "1", "Events of the replica", {replica}}, events);
   file.array("/replicas", {"tallies", "1", "Sums of the replica", {replica, column}}, values);
   file.array("/replicas", {"cpu_seconds", "second", "CPU time of all processes of the run", {}},
-             std::vector{cpu_seconds});
+             std::vector{former_seconds + cpu_seconds()});
   file.attribute("/replicas", "identity", identity);
-}
-
-}  // namespace
-
-void Checkpoint::save(const FinishedReplicas& finished) const {
-  Hdf5Writer file;
-  write(file, identity, former_seconds + cpu_seconds(), finished);
-  file.attribute("/replicas", "digest", file.digest());
   write_atomically(path, file.image());
 }
 
 FinishedReplicas Checkpoint::load() try {
   const Hdf5Reader file(path);
   if (!file.has_attribute("/replicas", "identity", identity)) return {};
+  if (!is_intact(path)) throw NumericalError("the checksum differs");
   const std::vector<std::int64_t> indices = file.counts("/replicas/index");
   const std::vector<std::int64_t> events = file.counts("/replicas/events");
   const std::vector<double> values = file.doubles("/replicas/tallies");
@@ -56,11 +47,7 @@ FinishedReplicas Checkpoint::load() try {
     finished[static_cast<std::uint64_t>(indices[row])] = {{part.begin(), part.end()},
                                                           static_cast<std::uint64_t>(events[row])};
   }
-  Hdf5Writer again;
-  const double spent = file.doubles("/replicas/cpu_seconds").front();
-  write(again, identity, spent, finished);
-  if (!file.has_attribute("/replicas", "digest", again.digest())) throw NumericalError("the digest differs");
-  former_seconds = spent;
+  former_seconds = file.doubles("/replicas/cpu_seconds").front();
   return finished;
 } catch (const NumericalError&) {
   throw UsageError(fmt::format("'{}' cannot be resumed: it is damaged. Remove it.", path));

@@ -16,7 +16,7 @@ struct FinishedReplica {
 /// Finished replicas by index.
 using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 
-/// The finished replicas of a run in an HDF5 file, with a digest as that of a result.
+/// The finished replicas of a run in an HDF5 file, with a checksum as that of a result.
 struct Checkpoint {
   std::string path;
   std::string identity{};     // of the run, as of its result: options that determine it, and sources

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "program/errors.hpp"
@@ -19,8 +21,11 @@ void check(herr_t status) {
   if (status < 0) throw NumericalError("HDF5 could not read or write an object");
 }
 
-unsigned long crc32(unsigned long crc, std::span<const std::byte> content) {
-  return ::crc32_z(crc, reinterpret_cast<const Bytef*>(content.data()), content.size());
+constexpr std::size_t digits = 8;  // of a checksum
+
+/// CRC-32 as hexadecimal digits.
+std::string checksum(std::span<const std::byte> content) {
+  return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size()));
 }
 
 hid_t memory_file() {
@@ -117,7 +122,6 @@ void Hdf5Writer::write(const std::string& group, const Description& what, hid_t 
     const Hdf5Handle scale(H5Dopen2(file_, axis.c_str(), H5P_DEFAULT), H5Dclose);
     check(H5DSattach_scale(dataset, scale, i));
   }
-  add_to_digest(path, values);
 }
 
 void Hdf5Writer::axis(const std::string& group, const Axis& axis) {
@@ -132,27 +136,23 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
   const Hdf5Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
                                                H5P_DEFAULT, H5P_DEFAULT),
                              H5Aclose);
-  const std::span<const std::byte> data = data_of(value);
-  check(H5Awrite(attribute, type, data.data()));
-  add_to_digest(object + '/' + name, data);
-}
-
-void Hdf5Writer::add_to_digest(const std::string& path, std::span<const std::byte> values) {
-  checksums_[path] = {crc32(crc32(0, std::as_bytes(std::span(path))), values), path.size() + values.size()};
-}
-
-std::string Hdf5Writer::digest() const {
-  unsigned long digest = 0;
-  for (const auto& [path, checksum] : checksums_)
-    digest = ::crc32_combine(digest, checksum.first, static_cast<z_off_t>(checksum.second));
-  return fmt::format("{:08x}", digest);
+  check(H5Awrite(attribute, type, data_of(value).data()));
 }
 
 std::vector<std::byte> Hdf5Writer::image() {
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
   std::vector<std::byte> bytes(static_cast<std::size_t>(H5Fget_file_image(file_, nullptr, 0)));
   check(H5Fget_file_image(file_, bytes.data(), bytes.size()) < 0 ? -1 : 0);
+  const std::string sum = checksum(bytes);
+  bytes.insert(bytes.end(), std::as_bytes(std::span(sum)).begin(), std::as_bytes(std::span(sum)).end());
   return bytes;
+}
+
+bool is_intact(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return text.size() >= digits &&
+         text.ends_with(checksum(std::as_bytes(std::span(text).first(text.size() - digits))));
 }
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : file_(open_file(path), H5Fclose) {}

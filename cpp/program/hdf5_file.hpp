@@ -6,12 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "program/options.hpp"
@@ -60,22 +58,19 @@ class Hdf5Writer {
 
   void attribute(const std::string& object, const std::string& name, const AttributeValue& value);
 
-  /// CRC-32 over all datasets and attributes so far, in ascending order of their paths, as 8 hexadecimal
-  /// digits: of each, the path, for an attribute OBJECT/NAME, and then the values as they are stored,
-  /// row-major and little-endian.
-  std::string digest() const;
-
-  std::vector<std::byte> image();  // bytes of the file
+  /// Bytes of the file, followed by their CRC-32 as 8 hexadecimal digits, which readers of HDF5 ignore.
+  std::vector<std::byte> image();
 
  private:
   void write(const std::string& group, const Description& what, hid_t type,
              std::span<const std::byte> values);
-  void add_to_digest(const std::string& path, std::span<const std::byte> values);
 
-  Hdf5Handle file_, with_parents_, without_times_;                          // and two lists of properties
-  std::map<std::string, std::pair<unsigned long, std::size_t>> checksums_;  // CRC-32 and length, by path
-  std::set<std::string> scales_;                                            // paths
+  Hdf5Handle file_, with_parents_, without_times_;  // and two lists of properties
+  std::set<std::string> scales_;                    // paths
 };
+
+/// Whether a file ends with the checksum of Hdf5Writer::image(). False if it cannot be read.
+bool is_intact(const std::string& path);
 
 /// Reads files of Hdf5Writer. Throws UsageError if the file cannot be read or is not an HDF5 file, and
 /// NumericalError if it lacks a dataset.

@@ -136,7 +136,6 @@ ExitStatus Program::write(const RunResult& result) const {
       {"converged", std::string(names.at(static_cast<std::size_t>(result.convergence)))},
   };
   for (const Parameter& each : provenance) file.attribute("/provenance", each.name, each.value);
-  file.attribute("/provenance", "digest", file.digest());
   write_atomically(output_, file.image());
   const std::string spent = cost(elapsed(), result.former_seconds + cpu_seconds(), result.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));

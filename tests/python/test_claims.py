@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from workflow.pipeline.compare import error_of_difference
 
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.lib.load import FormatError, Result, load
-from workflow.pipeline.compare import error_of_difference
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance

@@ -13,7 +13,7 @@ from workflow.pipeline.described import described, options_of_programs
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
 PROVENANCE = {"format", "format_version", "program", "option_words", "source_hash", "compiler", "flags", "libraries", "events",
-              "target_quantity", "target_error", "achieved_error", "error_without_control_variates", "converged", "digest"}  # fmt: skip
+              "target_quantity", "target_error", "achieved_error", "error_without_control_variates", "converged"}  # fmt: skip
 
 
 TYPES = {"integer": int, "number": float, "boolean": bool, "string": str}

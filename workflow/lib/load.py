@@ -23,13 +23,7 @@ from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 7
-NOT_IN_DIGEST = {
-    "digest",
-    "CLASS",
-    "NAME",
-    "DIMENSION_LIST",
-    "REFERENCE_LIST",
-}  # attributes: the digest itself, and attributes of axes
+DIGITS = 8  # of the CRC-32 at the end of a file
 REMEDY = "; remove it and make it again"
 NOT_REACHED = "not reached"
 UNDEFINED = "target quantity not defined"
@@ -197,9 +191,9 @@ class Result:
 def load(path: Path | str) -> Result:
     """Reads a result file. Raises FormatError, also after an edit or a change of name, and OSError if the
     file is unreadable."""
-    with _verified(path) as (file, provenance, datasets):
+    with _verified(path) as (file, provenance):
         quantities: dict[str, dict[str, h5py.Dataset]] = {}
-        for name, dataset in datasets.items():
+        for name, dataset in datasets_of(file).items():
             *_, quantity, part = name.split("/")
             quantities.setdefault(quantity, {})[part] = dataset
         read = {name: _quantity(parts) for name, parts in quantities.items()}
@@ -211,44 +205,30 @@ def load(path: Path | str) -> Result:
 
 def load_provenance(path: Path | str) -> dict[str, Any]:
     """The provenance of a result file, which is checked as by load()."""
-    with _verified(path) as (_, provenance, _):
+    with _verified(path) as (_, provenance):
         return provenance
 
 
-def digest(nodes: dict[str, h5py.Group | h5py.Dataset]) -> str:
-    """CRC-32 of path and little-endian values of all datasets and attributes, in ascending order of the
-    paths. nodes: all objects of a file."""
-    values: dict[str, bytes] = {}
-    for path, node in nodes.items():
-        if isinstance(node, h5py.Dataset):
-            values[path] = np.asarray(node[()], dtype=node.dtype.newbyteorder("<")).tobytes()
-        attributes = {name: _text(node.attrs[name]) for name in node.attrs if name not in NOT_IN_DIGEST}
-        values |= {f"{path}/{name}": _bytes(value) for name, value in attributes.items()}
-    crc = 0
-    for path, content in sorted(values.items()):
-        crc = zlib.crc32(content, zlib.crc32(path.encode(), crc))
-    return f"{crc:08x}"
+def is_intact(content: bytes) -> bool:
+    """Whether a result file ends with the CRC-32 of what precedes it."""
+    return content[-DIGITS:] == b"%08x" % zlib.crc32(content[:-DIGITS])
 
 
-def _bytes(value: Any) -> bytes:
-    """Value of an attribute as it is stored; an empty text is a null byte."""
-    return value.encode() or b"\0" if isinstance(value, str) else np.asarray(value).tobytes()
-
-
-def nodes_of(file: h5py.File) -> dict[str, h5py.Group | h5py.Dataset]:
-    """All objects by their paths. To open a dataset takes ten times as long as to read it."""
+def datasets_of(file: h5py.File) -> dict[str, h5py.Dataset]:
+    """All datasets by their paths. To open a dataset takes ten times as long as to read it."""
     nodes: dict[str, h5py.Group | h5py.Dataset] = {}
     file.visititems(lambda name, node: nodes.update({f"/{name}": node}))
-    return nodes
+    return {path: node for path, node in nodes.items() if isinstance(node, h5py.Dataset)}
 
 
 @contextmanager
-def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dict[str, h5py.Dataset]]]:
+def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     """Opens a result file after checking identity and checksum. HDF5 gets its bytes: it refuses a file
     that the same process has open with another kind of lock. Results are written under another name and
     renamed, and need no lock."""
     try:
-        with h5py.File(io.BytesIO(Path(path).read_bytes())) as file:
+        content = Path(path).read_bytes()
+        with h5py.File(io.BytesIO(content)) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}
             if provenance.get("format") != FORMAT:
                 raise FormatError("not a result of this project")
@@ -261,11 +241,9 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dic
                 raise FormatError(
                     f"it contains another result: other options or sources, copied or exchanged{REMEDY}"
                 )
-            nodes = nodes_of(file)
-            if provenance["digest"] != digest(nodes):
-                raise FormatError(f"edited or damaged: its content differs from its digest{REMEDY}")
-            datasets = {path: node for path, node in nodes.items() if isinstance(node, h5py.Dataset)}
-            yield file, provenance, datasets
+            if not is_intact(content):
+                raise FormatError(f"edited or damaged: its content differs from its checksum{REMEDY}")
+            yield file, provenance
     except FileNotFoundError as error:
         raise FormatError(f"{path} is missing") from error
     except FormatError as error:

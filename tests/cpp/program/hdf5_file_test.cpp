@@ -60,6 +60,23 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_FALSE(file.has_attribute("/parameters", "absent", true));
 }
 
+// Detected mistakes: a part of the file is not in the checksum.
+TEST(Hdf5File, AChangeOfAnyByteChangesTheChecksum) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+  std::vector<std::byte> content = image();
+  write_atomically(path, content);
+  EXPECT_TRUE(is_intact(path));
+  for (std::size_t place = 0; place < content.size(); place += 97) {
+    content[place] ^= std::byte{1};
+    write_atomically(path, content);
+    EXPECT_FALSE(is_intact(path)) << place;
+    content[place] ^= std::byte{1};
+  }
+  write_atomically(path, {});
+  EXPECT_FALSE(is_intact(path));
+}
+
 TEST(Hdf5File, RefusesASizeThatIsNotThatOfTheShape) {
   Hdf5Writer file;
   EXPECT_THROW(file.array("/group", {"x", "1", "Three", {axis("i", 3)}}, reals), std::invalid_argument);
