@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
-from tests.python.known_results import Known, truth
+from tests.study.known_results import Known, truth
 from workflow.lib.load import FormatError, Result, load
 from workflow.pipeline.compare import error_of_difference
 from workflow.study import judge
