@@ -10,7 +10,6 @@ import pytest
 from tests.python.conftest import ROOT
 from tests.study.known_results import Known, truth
 from workflow.lib.load import FormatError, Result, load
-from workflow.pipeline.compare import error_of_difference
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
@@ -149,11 +148,8 @@ def test_the_error_of_a_distance_is_that_of_the_bins_with_particles() -> None:
 
 
 def test_fitted_control_variates_take_degrees_of_freedom() -> None:
-    """Also those of the error of a difference between two results."""
     exact = next(iter(of_sizes(float).results("fig08", "deterministic")))
     plain = exact["kappa"]
     fitted = replace(plain, control_variates=6)
     number = estimate(replace(exact, quantities={"kappa": fitted}), "kappa")
     assert number.dof == plain.replicas - 7
-    _, dof = error_of_difference(fitted, fitted, shared=False)
-    assert dof == 2 * (plain.replicas - 7)
