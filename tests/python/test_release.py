@@ -26,15 +26,25 @@ Panel = dict[str, str]  # caption, and a hash of every column
 
 
 @cache
-def stored(name: str) -> Result:
-    """The result of the release of a run, PANEL/RUN."""
-    panel, _, run = name.partition("/")
-    (path,) = (one for one in (ROOT / "data/paper" / panel).glob("*.h5") if one.name.rsplit(".", 2)[0] == run)
+def stored(path: Path) -> Result:
     return load(path)
 
 
+def results_of_release() -> list[Result]:
+    return [stored(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+
+
+def result(run: str) -> Result:
+    """The result of the release of a run, PANEL/RUN."""
+    panel, _, name = run.partition("/")
+    (path,) = (
+        one for one in (ROOT / "data/paper" / panel).glob("*.h5") if one.name.rsplit(".", 2)[0] == name
+    )
+    return stored(path)
+
+
 def drawn(script: str, runs: list[str]) -> Panel:
-    figure, text, words = draw(script, [stored(run) for run in runs])
+    figure, text, words = draw(script, [result(run) for run in runs])
     plt.close(figure)
     table = pd.read_csv(io.StringIO(text), comment="#")
     hashes = {

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
+from tests.python.test_release import results_of_release
 from tests.study.known_results import Known, truth
-from workflow.lib.load import FormatError, Result, load
+from workflow.lib.load import FormatError, Result
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
@@ -98,7 +99,7 @@ def test_which_data_decide_a_power_law(law: Callable, error: float, outcome: Out
 
 def test_no_result_of_the_release_is_needed_for_a_report_and_fewer_decide_no_more() -> None:
     """Of the results of the release, each of those that a row depends on is removed in turn."""
-    loaded = [load(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+    loaded = results_of_release()
     level = level_of_each(len(ROWS))
     whole = Recording(loaded)
     for row in ROWS:
