@@ -6,10 +6,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from tests.python.conftest import ROOT, Measure, Program
-from workflow.lib.load import Quantity, Result
+from tests.python.conftest import Measure, Program
+from workflow.lib.load import Quantity
 from workflow.physics.sound import Chain
-from workflow.study.rings import gas, tabulate
 
 T, LENGTH, FUGACITY = 3.7, 0.6, 2.5
 ZETA = FUGACITY * LENGTH
@@ -128,50 +127,3 @@ def test_sound_must_not_come_around(program: Program) -> None:
     )
     assert run(cells=int(2 * reach) + 1).returncode == 0
     assert run(cells=int(2 * reach), rule="random-direction").returncode == 0
-
-
-def ring(
-    times: list[float], error: float, power: float = 4 / 3, of_exponent: float = 1, **options: object
-) -> Result:
-    """A ring of ζ = 0.8 and M = 1/3 with ⟨Q²⟩ = t^power, with relative errors; of_exponent: factor of those of
-    the exponents."""
-    time = np.array(times)
-    units = {"time": "time", "middle": "time"}
-
-    def quantity(mean: np.ndarray, relative: float, **axes: np.ndarray) -> Quantity:
-        count = np.full(mean.shape, 64)
-        return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, 0)
-
-    middle = np.sqrt(time[1:] * time[:-1])
-    parameters = {"temperature": 1.0, "cell_length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit_from": 2.0,
-                  "rule": "elastic", "replicas": 64}  # fmt: skip
-    quantities = {
-        "heat_variance": quantity(time**power, error, time=time),
-        "local_exponent": quantity(np.full(len(middle), power), of_exponent * error, middle=middle),
-    }
-    return Result(ROOT, parameters | options, {}, quantities)
-
-
-def test_a_gas_has_its_temperature_and_length() -> None:
-    """Detected mistakes: rings at T = 1 and 3, or with λ = 1 and 0.5 at one ζ, are one gas."""
-    gases = ({}, {"temperature": 3.0}, {"cell_length": 0.5, "fugacity": 1.6}, {"sigma": 0.3})
-    table = tabulate([ring([1, 3, 7], 0.01, **changed) for changed in gases])
-    assert len(table) == 4 * 3
-    assert len({gas(ring([1, 3], 0.01, **changed)) for changed in gases}) == 4
-
-
-def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
-    """A short ring ends at t = 4, where the long one takes over its octave. That has the smaller absolute
-    errors at all times, and the smaller error of the exponent from t = 2."""
-    results = [ring([1, 2, 4], 0.01), ring([2, 4, 8], 0.0101, power=1.2, of_exponent=0.5)]
-    results.append(ring([1, 2, 4, 8], 0.01, 1, rule="random-direction"))
-    results.append(ring([1, 2, 4, 8], 0.001, 1.1, rule="rotation", rotation_probability=0.1))
-    table = tabulate(results)
-    rotated = table[table.epsilon == 0.1]
-    table = table[table.epsilon == 0]
-    np.testing.assert_allclose(rotated.heat_variance, rotated.time**1.1)
-    sound, random = (table[table.rule == rule] for rule in ("elastic", "random-direction"))
-    assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
-    np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.2])
-    np.testing.assert_allclose(sound.local_exponent, [4 / 3, 1.2, 1.2, np.nan])
-    np.testing.assert_allclose(sound.middle, [2**0.5, 8**0.5, 32**0.5, np.nan])

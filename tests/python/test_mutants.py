@@ -1,6 +1,6 @@
-"""Mistakes that tests must find: each patch of tests/mutants is applied to a copy of the sources, whose tests
-then fail. Its first line states the mistake and, after a semicolon, the source and the names of the C++ tests,
-or the file and the name of a test of tests/python.
+"""Mistakes that tests must find: each patch of tests/mutants, or of a folder `mutants` beside tests of Python, is
+applied to a copy of the sources, whose tests then fail. Its first line states the mistake and, after a semicolon,
+the source and the names of the C++ tests, or the file and the name of a test of Python.
 
 The copy is built once in a folder of its own; for a patch only what it changes is compiled.
 """
@@ -17,7 +17,7 @@ import pytest
 from tests.python.conftest import ROOT
 
 PATCHES = sorted((ROOT / "tests/mutants").glob("*.patch"))
-PYTHON_PATCHES = sorted((ROOT / "tests/mutants/python").glob("*.patch"))
+PYTHON_PATCHES = sorted((ROOT / "tests").glob("*/mutants/*.patch"))
 HEAD = re.compile(r"(?P<mistake>.+); (?P<source>\S+_test\.cpp|test_\w+\.py) (?P<tests>\S+)")
 FAILED = "[  FAILED  ] "
 
@@ -84,7 +84,7 @@ def test_the_mistake_in_python_is_found(patch: Path, tmp_path: Path) -> None:
     (tmp_path / "build").mkdir()
     (tmp_path / "build/describe").symlink_to(ROOT / "build/describe")
     subprocess.run(["git", "apply", "--unsafe-paths", "-p1", patch], cwd=tmp_path, check=True)
-    command = [sys.executable, "-m", "pytest", "-q", f"tests/python/{source}", "-k", test]
+    command = [sys.executable, "-m", "pytest", "-q", patch.parents[1].relative_to(ROOT) / source, "-k", test]
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 1, f"no test finds that {mistake}: {done.stdout}"

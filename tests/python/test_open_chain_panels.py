@@ -4,12 +4,10 @@ import numpy as np
 
 from tests.python.plotted import (
     CHAIN,
-    RING,
     assert_line,
     assert_points,
     both,
     draw,
-    errors_of,
     over,
     result,
 )
@@ -122,34 +120,3 @@ def test_fig08() -> None:
     assert [*sound[:2]] == [*deterministic.cells[deterministic.exponent_to_next.notna()]]
     assert "at γ = N are at most 0.400(20), in the end 0.400(10)" in caption
     assert "particles carry 2.00 to 2.00 J_U backwards" in caption
-
-
-def test_momentum() -> None:
-    """κ is 7 N^a with another a for every case, also without noise, from fig. 8, at more sizes; ⟨Q²⟩ is t^(1 + a)."""
-    sizes, time = (16, 32, 64), np.array([2.0, 4, 8])
-    cases = {
-        "elastic": (0.3, {}),
-        "rotation": (0.2, {"rotation_probability": 0.1}),
-        "reversal": (0.05, {"reversal_probability": 0.1}),
-    }
-    runs = []
-    ring = {"cells": 100, "sigma": 0.5, "fugacity": 1.0, "temperature": 1.0, "cell_length": 1.0}
-    for name, (a, options) in cases.items():
-        own = options | {"rule": name}
-        series = {"elastic": "light"}.get(name, name)
-        runs += [result(series, RING | ring | own, "heat_current",
-                        heat_variance=(time ** (1 + a), {"time": time}), local_exponent=([1 + a, 1 + a], {"middle": np.sqrt([8, 32])}))]  # fmt: skip
-        chain = {"elastic": "deterministic"}.get(name, f"chain-{name}")
-        runs += [result(f"{chain}_cells={n}", CHAIN | {"cells": n} | own, "conductivity", kappa=7 * n**a, stationary=1.0,
-                        stationarity_p_value=0.5) for n in (*sizes, *([128] if name == "elastic" else []))]  # fmt: skip
-    runs.append(result("dense-longest", RING | ring | {"rule": "elastic", "fugacity": 2.0}, "heat_current",
-                       heat_variance=(time**1.25, {"time": time}), local_exponent=([1.25, 1.25], {"middle": np.sqrt([8, 32])})))  # fmt: skip
-    (chains, rings, gases), table, caption = draw("momentum", runs, "study")
-    powers = [a for a, _ in cases.values()]
-    assert_points(chains, *((sizes, (kappa := 7 * np.array(sizes) ** a), 0.01 * kappa) for a in powers))
-    variances = [time ** (1 + a) for a in powers]
-    assert_points(rings, *((time, y / 2 / time, errors_of(y) / 2 / time) for y in variances))
-    octaves = np.sqrt([8, 32])  # their middles
-    assert_points(gases, *((octaves, [a, a], errors_of(np.array([1 + a, 1 + a]))) for a in (0.3, 0.25)))
-    assert "by 1.516(21) without noise, by 1.072(15) if 10 % break momentum" in caption
-    assert len(table) == 9 + 12

@@ -1,7 +1,5 @@
-"""A small project of two panels and four short runs, for tests that change it; and the figures of this
-project at smoke quality."""
+"""A small project of two panels and four short runs, for tests that change it."""
 
-import fcntl
 import multiprocessing
 import os
 import re
@@ -188,13 +186,3 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Project:
 def project(made: Project, tmp_path: Path) -> Project:
     """A copy of the small project with its figures."""
     return Project(Path(shutil.copytree(made.folder, tmp_path / "a copy", symlinks=True)))
-
-
-@pytest.fixture(scope="session")
-def smoke() -> Path:
-    """The folder of this project, in which all figures and the report at smoke quality are made."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with (ROOT / "build/test.lock").open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)  # other workers of pytest wait
-        subprocess.run([sys.executable, "-m", "workflow", "report", "QUALITY=smoke"], cwd=ROOT, check=True)
-    return ROOT

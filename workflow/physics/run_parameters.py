@@ -22,11 +22,6 @@ def mass(result: Result) -> float:
     return (1 + sigma) / (1 - sigma)
 
 
-def epsilon(result: Result) -> float:
-    """Fraction of the collisions that the rule of the result disturbs; 0 of the elastic one."""
-    return float(result.parameters.get(f"{result.parameters['rule']}_probability", 0))
-
-
 def spacing(result: Result) -> tuple[float, str]:
     """Distance between scatterers as a number and as text."""
     given = result.parameters["cell_length"]

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
+from matplotlib.figure import Figure
+
 from workflow.lib import style
 from workflow.lib.caption import with_doubts
 from workflow.lib.columns import TableError, as_csv, inherited
@@ -41,6 +43,13 @@ def render(
         raise EditedError(f"{', '.join(sources)}: one of these was edited meanwhile: repeat the command")
     paths = [*map(Path, results)]
     loaded = load_all(paths)
+    figure, numbers, text = draw(script, loaded)
+    doubts = {str(result.path): result.doubts for result in loaded if result.doubts}
+    save(figure, numbers, Path(stem), text, Parents(identity, paths, sources, doubts))
+
+
+def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
+    """Figure, table as CSV, title and caption that a script makes from results. Raises REFUSED."""
     module = import_module(script.removesuffix(".py").replace("/", "."))
     style.apply()
     figure, table, caption = module.draw(loaded)
@@ -50,9 +59,7 @@ def render(
     shown = module.draw.shown(loaded) if isinstance(module.draw, Plot) else loaded
     whole = with_doubts(with_outside(" ".join(caption.split()), figure), shown)
     title = module.title(shown) if hasattr(module, "title") else module.TITLE
-    text = Text(" ".join(title.split()), whole)
-    doubts = {str(result.path): result.doubts for result in loaded if result.doubts}
-    save(figure, numbers, Path(stem), text, Parents(identity, paths, sources, doubts))
+    return figure, numbers, Text(" ".join(title.split()), whole)
 
 
 def load_all(paths: Sequence[Path]) -> list[Result]:

@@ -19,7 +19,6 @@ from workflow.lib import style
 from workflow.lib.figure import PHYSICS, Parts, plots
 from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
-from workflow.physics import run_parameters
 from workflow.study import rings
 
 TITLE = "Heat transport with and without conserved momentum"
@@ -62,7 +61,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per chain, sorted by N."""
     rows: list[dict[str, Any]] = []
     for result in results:
-        row: dict[str, Any] = {"rule": result.parameters["rule"], "epsilon": run_parameters.epsilon(result)}
+        row: dict[str, Any] = {"rule": result.parameters["rule"], "epsilon": rings.epsilon(result)}
         row |= {"cells": int(result.parameters["cells"]), "usable": result.usable}
         rows.append(row | result.columns("kappa"))
     return pd.DataFrame(rows).sort_values(["rule", "epsilon", "cells"], ignore_index=True)

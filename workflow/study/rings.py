@@ -14,6 +14,11 @@ STATE = ["sigma", "fugacity", "temperature", "cell_length"]  # parameters of a g
 GAS = ["rule", "epsilon", *STATE]  # columns that identify a gas
 
 
+def epsilon(result: Result) -> float:
+    """Fraction of the collisions that the rule of the result disturbs; 0 of the elastic one."""
+    return float(result.parameters.get(f"{result.parameters['rule']}_probability", 0))
+
+
 def chain(result: Result) -> Chain:
     """The gas of a ring."""
     temperature, length = (result.parameters[name] for name in ("temperature", "cell_length"))
@@ -24,7 +29,7 @@ def gas(result: Result) -> tuple[str | float, ...]:
     """Values of the columns GAS, as given: ζ and M would be equal at other temperatures or lengths, and differ by
     rounding."""
     state = (float(result.parameters[name]) for name in STATE)
-    return (result.parameters["rule"], run_parameters.epsilon(result), *state)
+    return (result.parameters["rule"], epsilon(result), *state)
 
 
 def texts(zeta: float, mass: float) -> tuple[str, str]:

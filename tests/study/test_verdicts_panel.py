@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from scipy.stats import t as student
 
-from tests.python.claim_truths import CASES
 from tests.python.conftest import ROOT, planned
-from tests.python.known_results import Known, truth
+from tests.study.claim_truths import CASES
+from tests.study.known_results import Known, truth
 from workflow.lib import style
 from workflow.lib.columns import as_csv
 from workflow.render.record import NUMBERS

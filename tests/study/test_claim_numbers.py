@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
-import tests.python.claim_truths_closed  # noqa: F401  # adds its cases
-from tests.python.claim_truths import CASES, Case
+import tests.study.claim_truths_closed  # noqa: F401  # adds its cases
 from tests.python.conftest import ROOT
-from tests.python.known_results import Known, drawn, truth
+from tests.study.claim_truths import CASES, Case
+from tests.study.known_results import Known, drawn, truth
 from workflow.lib.load import Quantity
 from workflow.study import judge
 from workflow.study.verdict import Estimate

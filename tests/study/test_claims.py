@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from workflow.pipeline.compare import error_of_difference
 
 from tests.python.conftest import ROOT
-from tests.python.known_results import Known, truth
-from workflow.lib.load import FormatError, Result, load
+from tests.python.test_release import results_of_release
+from tests.study.known_results import Known, truth
+from workflow.lib.load import FormatError, Result
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
@@ -99,7 +99,7 @@ def test_which_data_decide_a_power_law(law: Callable, error: float, outcome: Out
 
 def test_no_result_of_the_release_is_needed_for_a_report_and_fewer_decide_no_more() -> None:
     """Of the results of the release, each of those that a row depends on is removed in turn."""
-    loaded = [load(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+    loaded = results_of_release()
     level = level_of_each(len(ROWS))
     whole = Recording(loaded)
     for row in ROWS:
@@ -149,11 +149,8 @@ def test_the_error_of_a_distance_is_that_of_the_bins_with_particles() -> None:
 
 
 def test_fitted_control_variates_take_degrees_of_freedom() -> None:
-    """Also those of the error of a difference between two results."""
     exact = next(iter(of_sizes(float).results("fig08", "deterministic")))
     plain = exact["kappa"]
     fitted = replace(plain, control_variates=6)
     number = estimate(replace(exact, quantities={"kappa": fitted}), "kappa")
     assert number.dof == plain.replicas - 7
-    _, dof = error_of_difference(fitted, fitted, shared=False)
-    assert dof == 2 * (plain.replicas - 7)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from tests.python.conftest import sampled
-from tests.python.known_results import Truth
+from tests.study.known_results import Truth
 from workflow.pipeline.plan import Run
 
 COLD, HOT = 900 / 11, 1100 / 9  # temperatures of the baths

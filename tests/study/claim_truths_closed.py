@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from tests.python.claim_truths import EXACT, World, claim, named, rare
 from tests.python.conftest import planned
+from tests.study.claim_truths import EXACT, World, claim, named, rare
 from workflow.pipeline.plan import Run
 
 

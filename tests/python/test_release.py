@@ -1,0 +1,77 @@
+"""Every panel of the release, drawn from its results in data/paper, has the recorded caption and table.
+
+What was wrong when it was recorded stays: a new table needs a test with numbers calculated by hand. The results are
+read by name, whatever sources and configuration are now. After an intended change of a figure
+`.venv/bin/python -m tests.python.test_release` records what is drawn now.
+"""
+
+import io
+import json
+from functools import cache
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pandas as pd
+
+from tests.python.conftest import ROOT
+from workflow.lib.identity import sha256
+from workflow.lib.load import Result, load
+from workflow.pipeline.plan import Plan
+from workflow.render.__main__ import draw
+from workflow.render.record import RELEASE
+
+RECORD = Path(__file__).with_name("release.json")
+DIGITS = 6  # of the numbers that are compared
+Panel = dict[str, str]  # caption, and a hash of every column
+
+
+@cache
+def stored(path: Path) -> Result:
+    return load(path)
+
+
+def results_of_release() -> list[Result]:
+    return [stored(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+
+
+def result(run: str) -> Result:
+    """The result of the release of a run, PANEL/RUN."""
+    panel, _, name = run.partition("/")
+    (path,) = (
+        one for one in (ROOT / "data/paper" / panel).glob("*.h5") if one.name.rsplit(".", 2)[0] == name
+    )
+    return stored(path)
+
+
+def drawn(script: str, runs: list[str]) -> Panel:
+    figure, text, words = draw(script, [result(run) for run in runs])
+    plt.close(figure)
+    table = pd.read_csv(io.StringIO(text), comment="#")
+    hashes = {
+        name: sha256(cells.to_csv(float_format=f"%.{DIGITS}g").encode())[:8] for name, cells in table.items()
+    }
+    return {"caption": words.caption} | hashes
+
+
+def test_every_panel_of_the_release_is_as_recorded() -> None:
+    """Without the panels of the study if there is none. Detected mistake: a line of a script, of `lib` or of `physics`
+    changes a number or a caption."""
+    found, recorded = {}, json.loads(RECORD.read_text())
+    for panel, (script, runs, expected) in recorded.items():
+        if (ROOT / script).exists():
+            now = drawn(script, runs)
+            changed = {name for name in now.keys() | expected.keys() if now.get(name) != expected.get(name)}
+            found |= {f"{panel}: {name}": now.get(name) for name in changed}
+    assert found == {}, "after an intended change: .venv/bin/python -m tests.python.test_release"
+
+
+def record() -> None:
+    panels = {}
+    for panel in Plan(RELEASE):
+        runs = [f"{run.panel}/{run.name}" for run in panel.plotted]
+        panels[panel.name] = panel.script, runs, drawn(panel.script, runs)
+    RECORD.write_text(json.dumps(panels, indent=1, ensure_ascii=False) + "\n")
+
+
+if __name__ == "__main__":
+    record()
