@@ -8,7 +8,16 @@ if [ "${1:-}" = if-missing ] && [ -e .venv ]; then
   echo "$(readlink -m .venv/bin/python), the interpreter of .venv, does not run here: run make setup, which keeps .venv as .venv.former" >&2
   exit 1
 fi
-mkdir -p .cache
+# Modules of the folder that an environment is in come before packages of the same name.
+first_in_path() {
+  for packages in "$1"/lib/python3*/site-packages; do
+    echo 'import os, sys; sys.path.insert(0, os.path.dirname(sys.prefix))' >"$packages/project.pth"
+  done
+}
+{ mkdir -p .cache && [ -w . ] && [ -w .cache ]; } 2>/dev/null || {
+  echo "$PWD cannot be written: copy the project to a folder of yours" >&2
+  exit 1
+}
 exec 9>.cache/setup.lock
 flock 9 # until another command has installed
 bash workflow/pipeline/environment/system_packages.sh "$@"
@@ -17,7 +26,10 @@ groups='--no-default-groups'
 for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
 # A complete environment needs neither uv nor a network, as in a copy of the project without .cache.
 installed="$(cksum uv.lock)$groups"
-if works && grep -qsF -e "$installed" .venv/installed; then exit 0; fi
+if works && grep -qsF -e "$installed" .venv/installed; then
+  first_in_path .venv
+  exit 0
+fi
 
 version=0.13.9
 uv=$(command -v uv || true)
@@ -35,9 +47,7 @@ if ! works; then
   folder=.venv.new
   "$uv" venv --quiet --clear --relocatable "$folder"
 fi
-for packages in "$folder"/lib/python3*/site-packages; do
-  echo ../../../.. >"$packages/project.pth" # from the folder that the environment is in
-done
+first_in_path "$folder"
 # `uv sync` would need the index in uv.lock; this installs from a mirror, too, with the locked hashes. Other packages of the user stay.
 echo 'Installing the locked Python packages into .venv'
 "$uv" export --quiet --frozen --no-emit-project $groups >"$folder/locked.txt"
