@@ -1,5 +1,5 @@
-# `make help` lists the targets. No environment has to be activated. The entry removes the variables of the caller's shell that could change
-# a result (workflow/pipeline/environment/variables.py).
+# `make help` lists the targets. No environment has to be activated. The entry removes the variables of the
+# caller's shell that could change a result (workflow/pipeline/environment/variables.py).
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 export LC_ALL := C.UTF-8

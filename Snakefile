@@ -1,8 +1,9 @@
-"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render figures/<quality>/<panel>.*
+"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render
+figures/<quality>/<panel>.*
 
-`.venv/bin/snakemake`, or a panel by its name, `report`, or a file: `.venv/bin/snakemake fig05 --config quality=smoke`. Names contain a hash of
-their inputs, that of a figure the name of its record, <panel>.<identity>.json; missing files are made. Neither time stamps nor Snakemake's own
-records decide.
+`.venv/bin/snakemake`, or a panel by its name, `report`, or a file: `.venv/bin/snakemake fig05 --config
+quality=smoke`. Names contain a hash of their inputs, that of a figure the name of its record,
+<panel>.<identity>.json; missing files are made. Neither time stamps nor Snakemake's own records decide.
 """
 
 import os
@@ -53,8 +54,9 @@ onstart:
 
 
 def whole(products):
-    """Files of products and what they are made from, which are made if they are missing, whatever their times."""
-    return [ancient(path) for product in products for path in [*PARENTS[product.name], *FILES[product.name]]]
+    """Files of products and what they are made from, which are made if missing, whatever their times."""
+    names = [product.name for product in products]
+    return [ancient(path) for name in names for path in [*PARENTS[name], *FILES[name]]]
 
 
 def run_of(wildcards):
@@ -115,17 +117,18 @@ if PLAN.report:
             "{PYTHON} -m workflow.study.report {PLAN.quality.name} --gallery"
 
 
-# One run of a program. Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the
-# checkpoint of an interrupted program. The log is beside the result: otherwise Snakemake deletes the empty folder before the checkpoint is
-# written.
+# One run of a program. Exit status 4: stopped before the target error; the result and the figure are marked.
+# --resume continues from the checkpoint of an interrupted program. The log is beside the result: otherwise
+# Snakemake deletes the empty folder before the checkpoint is written.
 rule simulate:
     output:
         f"data/{PLAN.quality.name}/{RESULT}",
     log:
         f"data/{PLAN.quality.name}/{RESULT}".removesuffix("h5") + "log",
     priority: lambda wildcards: -[*PLAN.panels].index(wildcards.panel)  # earlier panels first
+    # On a cluster several short runs share a job.
     group:
-        lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None  # on a cluster, several in a job
+        lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None
     threads: lambda wildcards: threads_of(run_of(wildcards))
     params:
         command=command,

@@ -17,6 +17,7 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
+from numpy._core import _multiarray_umath as numpy
 
 from workflow.lib.identity import ROOT, sha256, siblings
 from workflow.render.files import write_atomically
@@ -105,10 +106,13 @@ def commit() -> str:
 
 
 def renderer() -> str:
-    """What the bytes of a picture depend on besides its parents: Python, kind of processor, versions of
-    packages."""
+    """What the bytes of a picture depend on besides its parents: Python, processor with the instructions that
+    NumPy chooses by it, as others round differently, versions of packages."""
     versions = ", ".join(f"{name} {version(name)}" for name in RENDERING)
-    return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
+    chosen = [
+        name for name in (*numpy.__cpu_baseline__, *numpy.__cpu_dispatch__) if numpy.__cpu_features__[name]
+    ]
+    return f"Python {platform.python_version()} on {platform.machine()} {' '.join(chosen)}, {versions}"
 
 
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
