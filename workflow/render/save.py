@@ -17,7 +17,7 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
-from numpy._core import _multiarray_umath as numpy
+from numpy._core import _multiarray_umath as processor  # type: ignore[attr-defined]
 
 from workflow.lib.identity import ROOT, sha256, siblings
 from workflow.render.files import write_atomically
@@ -110,7 +110,9 @@ def renderer() -> str:
     NumPy chooses by it, as others round differently, versions of packages."""
     versions = ", ".join(f"{name} {version(name)}" for name in RENDERING)
     chosen = [
-        name for name in (*numpy.__cpu_baseline__, *numpy.__cpu_dispatch__) if numpy.__cpu_features__[name]
+        name
+        for name in (*processor.__cpu_baseline__, *processor.__cpu_dispatch__)
+        if processor.__cpu_features__[name]
     ]
     return f"Python {platform.python_version()} on {platform.machine()} {' '.join(chosen)}, {versions}"
 
