@@ -3,12 +3,18 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "model/collision_rule.hpp"
 
 namespace lorentz {
+
+/// Equal masses exchange momenta only; masses of 0 and infinity exchange no energy.
+constexpr bool elastic_conducts(double sigma, std::span<const double> /*options*/ = {}) {
+  return sigma != 0 && sigma > -1 && sigma < 1;
+}
 
 /// Elastic collision of a particle with a fixed scatterer, p' = -sigma p + (1-sigma) P and P' = (1+sigma) p +
 /// sigma P with sigma = (M-m)/(M+m) [eq. 1] (Collet, Eckmann, Mejia-Monasterio 2009).
@@ -38,8 +44,10 @@ namespace lorentz {
 /// error is a random walk (docs/numerics.md). 0 and +-1 are exact.
 class Elastic {
  public:
-  static constexpr RuleProperties properties{
-      .name = "elastic", .description = "energy and momentum are conserved", .conserves_momentum = true};
+  static constexpr RuleProperties properties{.name = "elastic",
+                                             .description = "energy and momentum are conserved",
+                                             .conserves_momentum = true,
+                                             .conducts = elastic_conducts};
 
   /// Throws std::invalid_argument unless -1 <= sigma <= 1.
   explicit Elastic(double sigma) {
