@@ -17,7 +17,7 @@
 
 #include "model/conduction.hpp"
 #include "model/rules.hpp"
-#include "observables/conductivity/ends_and_openings.hpp"
+#include "observables/conductivity/end_scatterers.hpp"
 #include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
 
@@ -96,7 +96,7 @@ Study conductivity(const StationaryParameters& parameters) {
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
   Study study = stationary_study(
-      parameters, tallies, [=] { return EndsAndOpenings(chain, window); }, {currents_and_conductivity(chain)},
+      parameters, tallies, [=] { return EndScatterers(chain, window); }, {currents_and_conductivity(chain)},
       reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
   study.remarks = [chain](const Results& results) { return remarks(chain, results); };
   return study;
