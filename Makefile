@@ -49,11 +49,9 @@ format: setup-dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format -i
 	$(DEV)/ruff check --quiet --fix . && $(DEV)/ruff format --quiet .
 	$(DEV)/snakefmt --no-format-shell --line-length 110 Snakefile
-bench: setup-dev build  ## Cost of an event
-	bash workflow/pipeline/environment/build.sh benchmarks
-	build/bin/benchmarks
 .DEFAULT:
 	echo '$@ is not a target; write make panel PANEL=$@, or see make help' >&2; exit 2
 clean:  ## Remove build (programs, logs) and caches; results and figures stay
 	rm -rf build .cache
-.PHONY: help figures panel report gallery audit status verify provenance present setup setup-dev build test test-long check format bench clean
+.PHONY: help figures panel report gallery audit status verify provenance present
+.PHONY: setup setup-dev build test test-long check format clean

@@ -64,7 +64,7 @@ void simulate(ClosedDynamics& chain, double until, Observer& observer, const Hea
     if (chain.free_flight_.passing())
       chain.advance<true>(rule, until, observer, heartbeat);
     else
-      with_form(rule, [&](const auto& form) { chain.advance<false>(form, until, observer, heartbeat); });
+      chain.advance<false>(rule, until, observer, heartbeat);
   };
   std::visit(advance, chain.rule_);
 }

@@ -78,7 +78,7 @@ template <class Observer>
 void simulate(OpenDynamics& chain, double until, Observer& observer, const Heartbeat& heartbeat) {
   const auto advance = [&](const auto& rule) {
     if (chain.chain_.deterministic())
-      with_form(rule, [&](const auto& form) { chain.advance<false>(form, until, observer, heartbeat); });
+      chain.advance<false>(rule, until, observer, heartbeat);
     else
       chain.advance<true>(rule, until, observer, heartbeat);
   };

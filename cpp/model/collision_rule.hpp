@@ -24,12 +24,15 @@ struct RuleOption {
 /// What the programs need to know of a collision rule. Every rule conserves the energy u^2 + U^2, and leaves
 /// the measure exp(-(u^2 + U^2)/2T), weighted with the flux of particles, invariant [eq. 8].
 struct RuleProperties {
-  std::string_view name;                                         // of --rule
-  std::string_view description;                                  // for --help
-  bool conserves_momentum;                                       // p + P, for sigma < 1
-  std::span<const RuleOption> options{};                         // arguments of its constructor, after sigma
-  bool (*is_elastic)(std::span<const double> values) = nullptr;  // whether these options make it Elastic
-  bool changes_neighbour = false;                                // NeighbourRule
+  std::string_view name;                  // of --rule
+  std::string_view description;           // for --help
+  bool conserves_momentum;                // p + P, for sigma < 1
+  std::span<const RuleOption> options{};  // arguments of its constructor, after sigma
+  /// Whether collisions at a sigma exchange energy, and not only momenta, of particle and scatterer: then a
+  /// gradient of temperature forms between two reservoirs. Without this function the gradient that is
+  /// measured decides.
+  bool (*conducts)(double sigma, std::span<const double> options) = nullptr;
+  bool changes_neighbour = false;  // NeighbourRule
 };
 
 /// A rule by name, with the values of its options in their order.

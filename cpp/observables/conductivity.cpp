@@ -15,8 +15,9 @@
 #include <cmath>
 #include <limits>
 
+#include "model/conduction.hpp"
 #include "model/rules.hpp"
-#include "observables/conductivity/ends_and_openings.hpp"
+#include "observables/conductivity/end_scatterers.hpp"
 #include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
 
@@ -26,21 +27,12 @@ using namespace lorentz;
 
 const EndTallies tallies;
 
-/// Why a chain has no heat conductivity, with the remedy; empty if it has one. Options are compared exactly:
-/// any other value has a conductivity.
+/// Why a chain has no heat conductivity, with the remedy; empty if it has one.
 std::string reason_without_kappa(const OpenChain& chain) {
-  if (chain.left.rate == 0 || chain.right.rate == 0)
-    return "heat is conducted between two reservoirs; choose --nu-left and --nu-right above 0";
-  if (chain.left.temperature == chain.right.temperature)
-    return "the reservoirs have one temperature; choose another --temperature-left or --temperature-right";
-  if (chain.gamma == 0) return "no particle is scattered; choose a --gamma above 0";
-  if (std::abs(chain.sigma) == 1)
-    return "scatterers of mass 0 or infinity exchange no energy; choose a --sigma between -1 and 1";
   const RuleProperties& rule = rule_properties(chain.rule.name);
-  const bool elastic = rule.conserves_momentum || (rule.is_elastic && rule.is_elastic(chain.rule.options));
-  if (chain.sigma == 0 && elastic)
-    return "equal masses only exchange momenta, so that no gradient of temperature forms; choose another "
-           "--sigma";
+  const bool conducts = !rule.conducts || rule.conducts(chain.sigma, chain.rule.options);
+  std::string reason = reason_without_conduction(chain.left, chain.right, chain.gamma, chain.sigma, conducts);
+  if (!reason.empty()) return reason;
   return chain.cells == 1 ? "a single cell has no difference of temperature; choose more --cells" : "";
 }
 
@@ -104,7 +96,7 @@ Study conductivity(const StationaryParameters& parameters) {
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
   Study study = stationary_study(
-      parameters, tallies, [=] { return EndsAndOpenings(chain, window); }, {currents_and_conductivity(chain)},
+      parameters, tallies, [=] { return EndScatterers(chain, window); }, {currents_and_conductivity(chain)},
       reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
   study.remarks = [chain](const Results& results) { return remarks(chain, results); };
   return study;

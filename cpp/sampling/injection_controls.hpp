@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "engine/open_dynamics.hpp"
 #include "model/open_chain.hpp"
@@ -17,6 +18,10 @@ struct OpeningCurrents {
   void cross(double u) {
     energy += 0.25 * u * std::abs(u);
     particles += std::copysign(0.5, u);
+  }
+
+  friend OpeningCurrents operator+(const OpeningCurrents& one, const OpeningCurrents& other) {
+    return {one.energy + other.energy, one.particles + other.particles};
   }
 };
 
@@ -36,6 +41,11 @@ class InjectionControls {
     sums[0] += 1;
     sums[1] += std::abs(u);
     sums[2] += 0.5 * u * u;
+  }
+
+  friend InjectionControls operator+(InjectionControls one, const InjectionControls& other) {
+    for (std::size_t i = 0; i < count; ++i) one.sums_[i] += other.sums_[i];
+    return one;
   }
 
   /// Controls of a window of length `duration`.

@@ -42,10 +42,17 @@ struct HalfDifferenceTallies {
   Columns halves() const { return columns_of({energy_current, particle_current, temperature}); }
 };
 
-/// Observer that fills HalfDifferenceTallies.
-class HalfDifferences {
+/// Tallies of every stationary state; an observable derives its own from them: control variates [eq. 31] and
+/// those of the test.
+struct StationaryTallies : TallySchema {
+  Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
+  HalfDifferenceTallies half_differences{*this};
+};
+
+/// Observer that fills StationaryTallies. Sums over the window are those over its halves, added.
+class WindowHalves {
  public:
-  HalfDifferences(const OpenChain& chain, const Window& window)
+  WindowHalves(const OpenChain& chain, const Window& window)
       : chain_(chain),
         window_(window),
         halves_(window.begin, window.end, 2),
@@ -73,6 +80,25 @@ class HalfDifferences {
     }
   }
 
+  double duration() const { return window_.end - window_.begin; }
+
+  /// Over the window.
+  OpeningCurrents openings() const { return openings_[0] + openings_[1]; }
+
+  /// Time averages of U^2 of the first and the last scatterer over the window.
+  std::array<double, 2> end_temperatures() const {
+    const auto average = [&](const TimeIntegral& square) {
+      return (square.sums()[0] + square.sums()[1]) / duration();
+    };
+    return {average(squares_.front()), average(squares_.back())};
+  }
+
+  void record(const StationaryTallies& tallies, TallySums& sums) const {
+    sums.set(tallies.injection, (injections_[0] + injections_[1]).deviations(chain_, duration()));
+    record(tallies.half_differences, sums);
+  }
+
+ private:
   void record(const HalfDifferenceTallies& tallies, TallySums& sums) const {
     const double half = halves_.length();
     sums[tallies.energy_current] = (openings_[1].energy - openings_[0].energy) / half;
@@ -86,7 +112,6 @@ class HalfDifferences {
     for (std::size_t i = 0; i < first.size(); ++i) sums[tallies.injection][i] = second[i] - first[i];
   }
 
- private:
   /// sign: 1 for a particle that enters.
   void cross(double time, double u, double sign) {
     openings_[halves_[time]].cross(u);
@@ -114,55 +139,51 @@ Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain)
 /// Line that restricts the meaning of results that are not stationary, with the remedy; none if they are.
 std::vector<std::string> remarks_on_stationarity(const Results& results);
 
-/// Tallies of an observable with those of the test.
-template <class Tallies>
-struct WithHalfDifferences : Tallies {
-  HalfDifferenceTallies half_differences;
-  explicit WithHalfDifferences(const Tallies& tallies) : Tallies(tallies), half_differences(*this) {}
-};
-
-/// An observer of the stationary state and that of the test.
+/// An observer of the stationary state, whose hooks are optional, and that of both halves of the window.
 template <class Observer>
-struct ObserverWithHalfDifferences {
+struct StationaryObserver {
   Observer observer;
-  HalfDifferences half_differences;
+  WindowHalves halves;
 
   [[gnu::always_inline]] void on_scatterer(std::uint32_t cell, double before, double time) {
     notify_scatterer(observer, cell, before, time);
-    half_differences.on_scatterer(cell, before, time);
+    halves.on_scatterer(cell, before, time);
   }
   [[gnu::always_inline]] void on_flight(const Path& path) { notify_flight(observer, path); }
   void on_injection(End end, double time, double u) {
-    observer.on_injection(end, time, u);
-    half_differences.on_injection(end, time, u);
+    if constexpr (requires { observer.on_injection(end, time, u); }) observer.on_injection(end, time, u);
+    halves.on_injection(end, time, u);
   }
   void on_exit(End end, double time, double u) {
     if constexpr (requires { observer.on_exit(end, time, u); }) observer.on_exit(end, time, u);
-    half_differences.on_exit(end, time, u);
+    halves.on_exit(end, time, u);
   }
   void finish(const std::vector<double>& scatterers, double end_time) {
     if constexpr (requires { observer.finish(scatterers, end_time); }) observer.finish(scatterers, end_time);
-    half_differences.finish(scatterers, end_time);
+    halves.finish(scatterers, end_time);
   }
-  template <class Tallies>
-  void record(const WithHalfDifferences<Tallies>& tallies, TallySums& sums) const {
-    observer.record(tallies, sums);
-    half_differences.record(tallies.half_differences, sums);
+  template <std::derived_from<StationaryTallies> Tallies>
+  void record(const Tallies& tallies, TallySums& sums) const {
+    if constexpr (requires { observer.record(tallies, halves, sums); })
+      observer.record(tallies, halves, sums);
+    else
+      observer.record(tallies, sums);
+    halves.record(tallies, sums);
   }
 };
 
-/// Study of a chain in its stationary state, as open_study(), with the test of stationarity.
-template <class Tallies, std::invocable MakeObserver>
+/// Study of a chain in its stationary state, as open_study(), with the test of stationarity. The observer has
+/// record(tallies, sums), or record(tallies, const WindowHalves&, sums).
+template <std::derived_from<StationaryTallies> Tallies, std::invocable MakeObserver>
 Study stationary_study(const StationaryParameters& parameters, const Tallies& tallies,
                        const MakeObserver& make_observer, std::vector<Group> groups,
                        const std::string& target) {
   const Window window = parameters.window();
-  const WithHalfDifferences<Tallies> all(tallies);
-  groups.push_back(stationarity(all.half_differences, parameters.chain()));
+  groups.push_back(stationarity(tallies.half_differences, parameters.chain()));
   const auto make = [=] {
-    return ObserverWithHalfDifferences{make_observer(), HalfDifferences(parameters.chain(), window)};
+    return StationaryObserver{make_observer(), WindowHalves(parameters.chain(), window)};
   };
-  Study study = open_study(parameters, window, all, make, std::move(groups), target);
+  Study study = open_study(parameters, window, tallies, make, std::move(groups), target);
   study.remarks = remarks_on_stationarity;
   return study;
 }

@@ -5,7 +5,7 @@ import importlib
 import numpy as np
 import pytest
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import ROOT, Measure, Program
 from workflow.lib.figure import TheoryError
 from workflow.lib.load import Quantity, Result
 
@@ -78,6 +78,29 @@ def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], ga
         assert score(result[name], 102) > 6, name
     for name in ("particle_current", "energy_current", "temperature_difference"):
         assert score(result[name], 0) < 4, name
+
+
+@pytest.mark.parametrize("sigma", [-1, 0, 1])
+@pytest.mark.parametrize(
+    "rule",
+    [{"rule": "elastic"}, {"rule": "printed"}, RANDOM, REVERSAL, ROTATION],
+    ids=lambda rule: rule["rule"],
+)
+def test_what_programs_refuse_of_a_rule(program: Program, rule: dict[str, object], sigma: int) -> None:
+    """The same at every sigma, but for the paper's formula, which has no limits. The conductivity is in
+    test_conductivity.py."""
+    name = rule["rule"]
+    unlimited = name != "printed" or sigma == 0
+    accepted = {
+        "waiting_time": unlimited,
+        "heat_current": unlimited,
+        "energy_pulse": unlimited and name != "rotation",
+        "persistence": unlimited and name not in ("random-direction", "reversal"),
+    }
+    for other, expected in accepted.items():
+        zero = {"zero_total_momentum": True} if other == "persistence" else {}
+        done = program(other, sigma=sigma, **rule, **zero)
+        assert done.returncode in ((0, 4) if expected else (2,)), (other, done.stderr)
 
 
 @pytest.mark.parametrize("script", ["fig05", "fig03_inset"])

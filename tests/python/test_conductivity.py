@@ -26,7 +26,6 @@ def test_control_variates_need_replicas(program: Program, tmp_path: Path, gamma:
         ({"nu_left": 0, "nu_right": 0}, "--nu-right"),
         ({"temperature_left": 100, "temperature_right": 100}, "--temperature-right"),
         ({"cells": 1}, "--cells"),
-        ({"sigma": 0, "rule": "reversal", "reversal_probability": 0}, "--sigma"),
         # No particle scatters: the difference of the temperatures is noise.
         ({"gamma": 1e-20, "observation_time": 20, "replicas": 32}, "T_N - T_1"),
     ],
@@ -43,6 +42,40 @@ def test_a_conductivity_that_is_not_defined(
     defined = result.provenance["target_quantity"] if remedy.startswith("--") else "temperature_last"
     assert defined in ("energy_current", "temperature_last")
     assert np.isfinite(result[defined].mean)
+
+
+REVERSAL = [{"rule": "reversal", "reversal_probability": probability} for probability in (0, 0.5)]
+ROTATION = [{"rule": "rotation", "rotation_probability": probability} for probability in (0, 0.5)]
+
+
+@pytest.mark.parametrize(
+    ("rule", "conducts"),
+    [
+        ({"rule": "elastic"}, ()),
+        ({"rule": "printed"}, ()),
+        ({"rule": "random-direction"}, (0,)),
+        (REVERSAL[0], ()),
+        (REVERSAL[1], (0,)),
+        (ROTATION[0], ()),
+        (ROTATION[1], (0, 1)),
+    ],
+)
+@pytest.mark.parametrize("sigma", [-1, 0, 1])
+def test_every_rule_conducts_where_it_exchanges_energy(
+    program: Program, tmp_path: Path, rule: dict, conducts: tuple[int, ...], sigma: int
+) -> None:
+    """And not momenta only. Detected mistakes: a rule that conserves momentum exchanges momenta only; scatterers
+    of infinite mass exchange no energy."""
+    times = {"relaxation_time": 10, "observation_time": 40}
+    done = program("conductivity", cells=3, sigma=sigma, replicas=32, **times, **rule, progress="log")
+    if rule["rule"] == "printed" and sigma != 0:
+        assert done.returncode == 2
+        return
+    assert done.returncode == 0
+    result = load(tmp_path / "out.h5")
+    assert np.isfinite(result["kappa"].mean) == np.isfinite(result["kappa"].error) == (sigma in conducts)
+    assert result.provenance["target_quantity"] == ("kappa" if sigma in conducts else "energy_current")
+    assert ("--sigma" in done.stderr) == (sigma not in conducts)
 
 
 def test_the_conductivity_of_heat_leaves_out_the_energy_that_particles_carry(

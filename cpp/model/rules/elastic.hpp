@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -10,61 +10,55 @@
 
 namespace lorentz {
 
+/// Equal masses exchange momenta only; masses of 0 and infinity exchange no energy.
+constexpr bool elastic_conducts(double sigma, std::span<const double> /*options*/ = {}) {
+  return sigma != 0 && sigma > -1 && sigma < 1;
+}
+
 /// Elastic collision of a particle with a fixed scatterer, p' = -sigma p + (1-sigma) P and P' = (1+sigma) p +
 /// sigma P with sigma = (M-m)/(M+m) [eq. 1] (Collet, Eckmann, Mejia-Monasterio 2009).
 ///
 /// In energy-normalised variables u = p/sqrt(m), U = P/sqrt(M) this is the orthogonal reflection u' = -sigma
-/// u + c U, U' = c u + sigma U with c^2 = 1 - sigma^2 [eq. 2]. This form is not used: because c is rounded,
-/// sigma^2 + c^2 differs from 1 by a constant, and the energy drifts linearly with the number of collisions.
-/// The code uses velocities [eq. 3]: the scatterer is stored as w = U / scatterer_scale(), its velocity up to
-/// a power of two, and a multiple of the relative velocity is added,
+/// u + c U, U' = c u + sigma U with c^2 = 1 - sigma^2 [eq. 2]. If c is rounded, sigma^2 + c^2 differs from 1
+/// by a constant, and the energy drifts linearly with the number of collisions. Therefore the scatterer is
+/// stored as w = U / scatterer_scale(), its velocity up to a power of two m, with which c has two factors
+/// that are stored exactly:
 ///
-///   |sigma| <  1/2:  u' = w + sigma (w - u)               w' = u + sigma (w - u)
-///   |sigma| >= 1/2:  u' = u + (1+sigma) (w - u)           w' = w - (1-sigma) (w - u)
+///   u' = (1+sigma)/m w - sigma u               w' = (1-sigma) m u + sigma w
 ///
-/// For 1-|sigma| < 2^-10, the velocity that is reversed has the first form, u' at sigma = 1 and w' at sigma =
-/// -1, and the other one the second form. The stored sigma is then accurate to its last digit, although
-/// 1-|sigma| is close to the last digit of 1+|sigma|.
-///
-/// The stored 1+sigma and 1-sigma add up to exactly 2, so that the map of real numbers conserves energy and
-/// momentum exactly, and errors come only from the rounding of each operation. The first form is an exact
-/// exchange at sigma = 0. The second form has full relative precision at sigma -> +-1, where the powers of
-/// two keep w and U of the same order of magnitude.
-///
-/// Rounding errors have mean 0 only if the coefficient is not close to a fraction with a small denominator.
-/// Products with 0.3, for example, have only ten different remainders relative to the spacing of the results;
-/// their rounding errors have the same sign on average, and the energy drifts. Therefore sigma, or 1-|sigma|
-/// in the second form, is multiplied by 1 + 1e-11, a change far below every other error. The remaining energy
-/// error is a random walk (docs/numerics.md). 0 and +-1 are exact.
+/// This map of real numbers conserves energy and momentum, as (1+sigma)(1-sigma) + sigma^2 is exactly 1, and
+/// errors come only from the rounding of each operation. m is close to sqrt(M), so that w and U are of the
+/// same order of magnitude. sigma is written as a whole number, -1, 0 or 1, minus a rest, and the product
+/// with the whole number, which is exact, is added last. At sigma = 0 and +-1 the collision is exact. Close
+/// to +-1 the rounding error of a product with sigma itself would be nearly the same in thousands of
+/// collisions of a scatterer, as its velocity hardly changes.
 class Elastic {
  public:
-  static constexpr RuleProperties properties{
-      .name = "elastic", .description = "energy and momentum are conserved", .conserves_momentum = true};
+  static constexpr RuleProperties properties{.name = "elastic",
+                                             .description = "energy and momentum are conserved",
+                                             .conserves_momentum = true,
+                                             .conducts = elastic_conducts};
 
   /// Throws std::invalid_argument unless -1 <= sigma <= 1.
-  explicit Elastic(double sigma) {
+  explicit Elastic(double sigma) : sigma_(stored(sigma)) {
     if (!(sigma >= -1 && sigma <= 1)) throw std::invalid_argument("sigma must lie in [-1, 1]");
-    if (std::abs(sigma) < 0.5)
-      use_exchange_form(detuning * sigma);
-    else
-      use_relative_form(std::copysign(1.0, sigma), detuning * (1 - std::abs(sigma)));
+    if (std::abs(sigma) == 1) return;  // c = 0
+    const double mass = (1 + sigma_) / (1 - sigma_);
+    const double magnitude = std::ldexp(1.0, std::ilogb(mass) / 2);
+    particle_from_scatterer_ = (1 + sigma_) / magnitude;
+    scatterer_from_particle_ = (1 - sigma_) * magnitude;
+    root_mass_ = std::sqrt(mass);
+    scatterer_scale_ = root_mass_ / magnitude;
   }
 
-  /// One collision, in place: u is the velocity of the particle, w the scaled velocity of the scatterer [eq.
-  /// 3].
+  /// One collision, in place: u is the velocity of the particle, w the scaled velocity of the scatterer.
   void operator()(double& u, double& w, std::uint32_t /*cell*/) const {
-    const double from_scatterer = scatterer_weight_ * w, from_particle = particle_weight_ * u;
-    const double relative = from_scatterer - from_particle;
-    const double particle_base = particle_takes_ ? from_scatterer : u;
-    const double scatterer_base = scatterer_takes_ ? from_particle : w;
-    u = particle_base + particle_gain_ * relative;
-    w = scatterer_base + scatterer_gain_ * relative;
+    const double particle = u, scatterer = w;
+    u = (particle_from_scatterer_ * scatterer + rest_ * particle) - whole_ * particle;
+    w = (scatterer_from_particle_ * particle - rest_ * scatterer) + whole_ * scatterer;
   }
 
-  /// Whether the rule is that of RelativeElastic.
-  bool relative_form() const { return !particle_takes_ && !scatterer_takes_; }
-
-  /// sigma of the stored, rounded coefficients.
+  /// sigma as it is stored.
   double sigma() const { return sigma_; }
 
   /// The ratio U / w, in [1/2, 2].
@@ -93,75 +87,28 @@ class Elastic {
     scatterer_scale_ = scatterer_scale;
   }
 
-  /// The second form.
-  void relative(double& u, double& w) const {
-    const double relative = scatterer_weight_ * w - particle_weight_ * u;
-    u += particle_gain_ * relative;
-    w += scatterer_gain_ * relative;
-  }
-
  private:
-  static constexpr double detuning = 1 + 1e-11;
-
-  void use_exchange_form(double sigma) {
-    sigma_ = sigma;
-    particle_takes_ = scatterer_takes_ = true;
-    particle_gain_ = scatterer_gain_ = sigma;
-    root_mass_ = scatterer_scale_ = std::sqrt((1 + sigma) / (1 - sigma));
+  /// sigma, changed by at most 1e-11 sigma (1-|sigma|) + 2^-53, which is far below every other error.
+  ///
+  /// Rounding errors have mean 0 only if the coefficient is not close to a fraction with a small denominator.
+  /// Products with 0.3, for example, have only ten different remainders relative to the spacing of the
+  /// results; their rounding errors have the same sign on average, and the energy drifts. The first line
+  /// avoids these fractions; 0 and +-1 stay. The second makes 1+sigma and 1-sigma exact. Not for 1-|sigma| <
+  /// 2^-10, where sigma is accurate to its last digit: there an error of 1+|sigma| is multiplied by
+  /// 1-|sigma|, and changes the energy by less than 2^-63 per collision.
+  static double stored(double sigma) {
+    const double detuned = sigma + 1e-11 * sigma * (1 - std::abs(sigma));
+    if (1 - std::abs(sigma) < 0x1p-10) return detuned;
+    return std::copysign((1 + std::abs(detuned)) - 1, sigma);
   }
 
-  /// `one_minus` is 1-|sigma|.
-  void use_relative_form(double sign, double one_minus) {
-    const bool near_limit = one_minus < 0x1p-10;
-    const double whole = near_limit ? 1 : 2;
-    const double heavy =
-        whole - one_minus;  // rounded to a multiple of 2^-53 or 2^-52, so the next line is exact
-    const double light = whole - heavy;
-    sigma_ = sign * (1 - light);
-    particle_takes_ = near_limit && sign > 0;
-    scatterer_takes_ = near_limit && sign < 0;
-    particle_gain_ = sign > 0 ? heavy : light;
-    scatterer_gain_ = -(sign > 0 ? light : heavy);
-    double& partner_weight = sign > 0 ? scatterer_weight_ : particle_weight_;
-    double& light_gain = sign > 0 ? scatterer_gain_ : particle_gain_;
-    if (light == 0) {  // sigma = +-1: the velocity of the infinitely heavier partner vanishes
-      partner_weight = 0;
-      root_mass_ = 0;
-      return;
-    }
-    const double mass_ratio = (2 - light) / light;
-    const double magnitude = std::ldexp(1.0, std::ilogb(mass_ratio) / 2);
-    partner_weight = 1 / magnitude;
-    light_gain *= magnitude;
-    root_mass_ = std::sqrt(sign > 0 ? mass_ratio : 1 / mass_ratio);
-    scatterer_scale_ = sign > 0 ? root_mass_ / magnitude : root_mass_ * magnitude;
-  }
-
-  double sigma_ = 0;
-  bool particle_takes_ = false;   // u' has the first form, which starts from w
-  bool scatterer_takes_ = false;  // w' has the first form, which starts from u
-  double scatterer_weight_ = 1;
-  double particle_weight_ = 1;
-  double particle_gain_ = 0;
-  double scatterer_gain_ = 0;
+  double sigma_;
+  double whole_ = std::nearbyint(sigma_);
+  double rest_ = whole_ - sigma_;
+  double particle_from_scatterer_ = 0;
+  double scatterer_from_particle_ = 0;
   double scatterer_scale_ = 1;
-  double root_mass_ = 1;
+  double root_mass_ = 0;
 };
-
-/// The same for |sigma| >= 1/2, with fewer operations.
-class RelativeElastic : public Elastic {
- public:
-  explicit RelativeElastic(const Elastic& rule) : Elastic(rule) {}
-  void operator()(double& u, double& w, std::uint32_t /*cell*/) const { relative(u, w); }
-};
-
-/// Calls advance(rule), with the form that needs fewer operations.
-template <class Rule, class Advance>
-void with_form(const Rule& rule, const Advance& advance) {
-  if constexpr (std::same_as<Rule, Elastic>) {
-    if (rule.relative_form()) return advance(RelativeElastic(rule));
-  }
-  advance(rule);
-}
 
 }  // namespace lorentz

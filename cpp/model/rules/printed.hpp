@@ -13,7 +13,8 @@ class Printed : public Elastic {
  public:
   static constexpr RuleProperties properties{.name = "printed",
                                              .description = "elastic, rounded as in the paper's formula",
-                                             .conserves_momentum = true};
+                                             .conserves_momentum = true,
+                                             .conducts = elastic_conducts};
 
   /// Throws std::invalid_argument unless -1 < sigma < 1.
   explicit Printed(double sigma) : Elastic(sigma), given_(sigma) {

@@ -13,7 +13,8 @@ class RandomDirection : public Elastic {
   static constexpr RuleProperties properties{
       .name = "random-direction",
       .description = "elastic, then the direction of the particle is drawn",
-      .conserves_momentum = false};
+      .conserves_momentum = false,
+      .conducts = [](double sigma, std::span<const double>) { return sigma > -1 && sigma < 1; }};
 
   using Elastic::Elastic;
 

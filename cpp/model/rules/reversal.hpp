@@ -19,7 +19,9 @@ class Reversal : public Elastic {
       .description = "elastic, then the scatterer's momentum is reversed with --reversal-probability",
       .conserves_momentum = false,
       .options = options,
-      .is_elastic = [](std::span<const double> values) { return values[0] == 0; }};
+      .conducts = [](double sigma, std::span<const double> values) {
+        return elastic_conducts(sigma) || (sigma == 0 && values[0] > 0);
+      }};
 
   Reversal(double sigma, double probability) : Elastic(sigma), probability_(probability) {}
 

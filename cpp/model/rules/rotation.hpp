@@ -29,7 +29,10 @@ class Rotation : public Elastic {
           "scatterer exchange energy and momentum at random",
       .conserves_momentum = true,
       .options = options,
-      .is_elastic = [](std::span<const double> values) { return values[0] == 0; },
+      .conducts =
+          [](double sigma, std::span<const double> values) {
+            return elastic_conducts(sigma) || (sigma > -1 && values[0] > 0);
+          },
       .changes_neighbour = true};
 
   Rotation(double sigma, double probability) : Elastic(sigma), probability_(probability) {

@@ -7,8 +7,8 @@
 
 #include "engine/path.hpp"
 #include "model/open_chain.hpp"
-#include "sampling/injection_controls.hpp"
 #include "sampling/momentum_bins.hpp"
+#include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
 #include "statistics/histogram.hpp"
 #include "statistics/range_tally.hpp"
@@ -16,8 +16,8 @@
 
 namespace lorentz {
 
-/// Tallies of the crossings of the bonds of an open chain by momentum, with their control variates.
-struct BondTallies : TallySchema {
+/// Tallies of the crossings of the bonds of an open chain by momentum, with control variates for each bin.
+struct BondTallies : StationaryTallies {
   static constexpr std::size_t powers = 3;  // of p whose sums are kept: 0, 2, 4
 
   Axis bond, momentum, half{"half", "1", "Sign of p", {-1, 1}};
@@ -27,7 +27,6 @@ struct BondTallies : TallySchema {
       tally("squares", {half, bond}, "momentum^2/time", "Sum of p^2 over crossings"),
       tally("fourth_powers", {half, bond}, "momentum^4/time", "Sum of p^4 over crossings")};
   Tally bin_injection = tally("bin_injection", {momentum}, "1", "Injected in a bin, minus its mean");
-  Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
 
   BondTallies(std::size_t cells, const Bins& bins)
       : bond(numbered_axis("bond", "Bond number; 0 and N are the openings", cells + 1)),
@@ -67,10 +66,7 @@ class BondCrossings {
     moments_[path.direction()].add(first, last, {1, square, square * square});
   }
 
-  void on_injection(End end, double, double u) {
-    injections_.add(end, u);
-    injected_.add(u);
-  }
+  void on_injection(End, double, double u) { injected_.add(u); }
 
   void record(const BondTallies& tallies, TallySums& sums) const {
     const double duration = window_.end - window_.begin;
@@ -82,7 +78,6 @@ class BondCrossings {
     for (std::size_t bin = 0; bin < bins_.count(); ++bin)
       sums[tallies.bin_injection][bin] =
           injected_.weights()[bin] - expected_injections(chain_, window_, bins_, bin);
-    sums.set(tallies.injection, injections_.deviations(chain_, duration));
   }
 
  private:
@@ -93,7 +88,6 @@ class BondCrossings {
   RangeTally<> counts_;                                   // [bin, bond]
   std::vector<RangeTally<BondTallies::powers>> moments_;  // to the left, to the right
   Histogram injected_;
-  InjectionControls injections_;
 };
 
 /// Regressions of the flux in a bin on the injections into the same bin, for bins with enough injections to

@@ -7,8 +7,8 @@
 #include "engine/observation.hpp"
 #include "engine/open_dynamics.hpp"
 #include "engine/path.hpp"
-#include "sampling/injection_controls.hpp"
 #include "sampling/momentum_bins.hpp"
+#include "sampling/stationarity.hpp"
 #include "statistics/histogram.hpp"
 #include "statistics/range_tally.hpp"
 #include "statistics/tally.hpp"
@@ -16,8 +16,8 @@
 
 namespace lorentz {
 
-/// Tallies of the cells and bonds of an open chain, per unit time, with the control variates.
-struct CellTallies : TallySchema {
+/// Tallies of the cells and bonds of an open chain, per unit time.
+struct CellTallies : StationaryTallies {
   Axis cell, bond, momentum;
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
   Axis direction{"direction", "1", "-1: to the left, 1: to the right", {-1, 1}};
@@ -32,7 +32,6 @@ struct CellTallies : TallySchema {
   Tally energy_current = tally("energy_current", {bond}, "energy/time", "J_U, positive to the right");
   Tally end_momentum = tally("end_momentum", {end, momentum}, "1",
                              "Part of the time that an end scatterer spends in a bin of U");
-  Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
 
   CellTallies(std::size_t cells, const Bins& bins)
       : cell(numbered_axis("cell", "Cell number, from 0", cells)),
@@ -118,8 +117,6 @@ class CellProfile {
 
   void on_scatterer(std::uint32_t cell, double before, double time) { advance(cell, before, time); }
 
-  void on_injection(End end, double, double u) { injections_.add(end, u); }
-
   void finish(const std::vector<double>& scatterers, double end_time) {
     for (std::uint32_t cell = 0; cell < chain_.cells; ++cell) advance(cell, scatterers[cell], end_time);
   }
@@ -149,7 +146,6 @@ class CellProfile {
     for (const std::size_t end : {0U, 1U})
       std::ranges::transform(momenta_[end].weights(), sums[tallies.end_momentum.row(end)].begin(),
                              [duration](double time) { return time / duration; });
-    sums.set(tallies.injection, injections_.deviations(chain_, duration));
   }
 
  private:
@@ -171,7 +167,6 @@ class CellProfile {
   std::vector<TimeIntegral> scatterers_;
   std::vector<double> last_collision_;  // of either end scatterer, or the beginning of the window
   std::vector<Histogram> momenta_;
-  InjectionControls injections_;
 };
 
 }  // namespace lorentz

@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <vector>
 
@@ -16,19 +17,19 @@ const Window window{2, 10};
 
 // Detected mistakes: the middle scatterer is another one; the first half is not subtracted; the energy of a
 // particle that leaves is added; exits after the window count.
-TEST(HalfDifferences, ChangesBetweenTheHalves) {
-  TallySchema schema;
-  const HalfDifferenceTallies tallies(schema);
-  HalfDifferences half_differences(chain, window);
-  half_differences.on_injection(End::left, 3, 2);
-  half_differences.on_injection(End::left, 3, 0);
-  half_differences.on_exit(End::right, 7, 4);
-  half_differences.on_exit(End::left, 10, -8);
+TEST(WindowHalves, ChangesBetweenTheHalves) {
+  const StationaryTallies all;
+  const HalfDifferenceTallies& tallies = all.half_differences;
+  WindowHalves halves(chain, window);
+  halves.on_injection(End::left, 3, 2);
+  halves.on_injection(End::left, 3, 0);
+  halves.on_exit(End::right, 7, 4);
+  halves.on_exit(End::left, 10, -8);
   for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U})
-    half_differences.on_scatterer(scatterer, 1. * scatterer, 6);
-  half_differences.finish({0, 2, 4, 6, 8}, 10);
-  TallySums sums(schema);
-  half_differences.record(tallies, sums);
+    halves.on_scatterer(scatterer, 1. * scatterer, 6);
+  halves.finish({0, 2, 4, 6, 8}, 10);
+  TallySums sums(all);
+  halves.record(all, sums);
   EXPECT_EQ(sums[tallies.energy_current], (0.25 * 16 - 0.25 * 4) / 4);
   EXPECT_EQ(sums[tallies.particle_current], -0.125);
   EXPECT_EQ(sums[tallies.energy], (2. - 8.) / 8);
@@ -36,6 +37,36 @@ TEST(HalfDifferences, ChangesBetweenTheHalves) {
   const auto temperature = sums[tallies.temperature], injection = sums[tallies.injection];
   EXPECT_EQ(std::vector(temperature.begin(), temperature.end()), (std::vector<double>{0, 16 - 4, 64 - 16}));
   EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{-2, -2, -2, 0, 0, 0}));
+}
+
+// Detected mistakes: the energy is u^2 instead of u^2/2; the energy current has no sign; a crossing of one
+// opening counts fully instead of half; exits are not counted, or outside the window, too; one half is left
+// out.
+TEST(WindowHalves, CurrentsAndInjectionsOfTheWindow) {
+  const StationaryTallies tallies;
+  WindowHalves halves(chain, window);
+  halves.on_injection(End::left, 2.5, 2);
+  halves.on_exit(End::right, 3.5, 3);
+  halves.on_exit(End::left, 3.75, -1);
+  halves.on_injection(End::right, 9.5, -4);
+  for (const double outside : {1.9, 10.}) halves.on_exit(End::left, outside, -2);
+  halves.finish({0, 0, 0, 0, 0}, 10);
+  TallySums sums(tallies);
+  halves.record(tallies, sums);
+  EXPECT_EQ(halves.openings().energy, 1 + 2.25 - 0.25 - 4);
+  EXPECT_EQ(halves.openings().particles, 0);
+  const auto injection = sums[tallies.injection];
+  EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{1, 2, 2, 1, 4, 8}));
+}
+
+// Detected mistakes: the momentum after the collision is used for the time before it; the middle scatterer is
+// used in place of the last one; one half is left out.
+TEST(WindowHalves, TemperaturesOfTheEnds) {
+  WindowHalves halves(chain, window);
+  halves.on_scatterer(0, 2, 4.5);
+  halves.on_scatterer(2, 100, 5.5);
+  halves.finish({4, 0, 100, 0, 3}, 10);
+  EXPECT_EQ(halves.end_temperatures(), (std::array<double, 2>{(2.5 * 4 + 5.5 * 16) / 8, 9}));
 }
 
 /// stationarity_p_value of normal records of variance 1, with `shift` standard errors of the mean in one

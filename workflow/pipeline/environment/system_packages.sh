@@ -1,11 +1,11 @@
 #!/bin/bash
 # Finds missing packages of Debian and Ubuntu, and installs them with apt if root; otherwise prints the command to do so. Elsewhere CMake
-# names what it misses. With "dev" also the packages for tests, checks and benchmarks.
+# names what it misses. With "dev" also the packages for tests and checks.
 set -euo pipefail
 needed='g++ cmake ninja-build libgsl-dev libhdf5-dev zlib1g-dev librandom123-dev
   libsleef-dev libfmt-dev python3-venv'
 for group; do
-  if [ "$group" = dev ]; then needed+=' libgtest-dev libbenchmark-dev clang'; fi
+  if [ "$group" = dev ]; then needed+=' libgtest-dev clang'; fi
 done
 command -v dpkg-query >/dev/null || exit 0
 installed=$(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p')

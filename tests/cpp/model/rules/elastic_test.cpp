@@ -16,11 +16,11 @@ constexpr double unit = 0x1p-53;  // largest relative error of one rounding
 const std::vector<double> sigmas = {-1,  -1 + 1e-12, -0.9, -0.5,      -0.49999,    -1e-10,       0, 1e-10,
                                     0.3, 0.5,        0.9,  1 - 1e-12, 1 - 0x1p-53, -1 + 0x1p-53, 1};
 
-/// Bound on the error of u' and U' in units of 2^-53 max(|u|, |U|). The worst case is U' at sigma <= -1/2. w
-/// = U / scale has 2.5 roundings (1.5 of them from the scale), which enter U' with the weight |sigma|; w - u
-/// and its product with 1-sigma have one each, at magnitudes of at most 2 (1 + 1/sqrt(3)); the sum has one,
-/// the scale and the product with it 2.5, at |U'| <= sqrt(2). The total is 13.8; other cases stay below 11.
-constexpr double roundings = 14;
+/// Bound on the error of u' and U' in units of 2^-53 max(|u|, |U|). The worst case is U'. w = U / scale has
+/// 2.5 roundings (1.5 of them from the scale), which enter with the weight |sigma|; the products with c and
+/// the rest, and their sum, have one each, at magnitudes of at most 1, 1/2 and 3/2; the last sum has one, the
+/// scale and the product with it 2.5, at |U'| <= sqrt(2). The total is below 10.5.
+constexpr double roundings = 11;
 
 struct Pair {
   double u, scatterer;
