@@ -37,10 +37,10 @@ setup:  ## System packages, and Python packages in .venv
 setup-dev:
 	bash workflow/pipeline/environment/setup.sh dev
 test: setup-dev build  ## Tests; make test-long: also those that take many minutes
-	bash workflow/pipeline/environment/test.sh -m 'not long'
+	bash workflow/pipeline/environment/test.sh
 test-long: setup-dev build
 	bash workflow/pipeline/environment/setup.sh dev slurm
-	bash workflow/pipeline/environment/test.sh
+	bash workflow/pipeline/environment/test.sh -m ''
 check: setup-dev build  ## Format, lint, types
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format --dry-run --Werror
 	$(DEV)/ruff check --quiet . && $(DEV)/ruff format --quiet --check . && $(DEV)/mypy --no-error-summary

@@ -83,6 +83,13 @@ def lines(axes: Axes) -> list[tuple[np.ndarray, np.ndarray]]:
     return [tuple(np.asarray(values, dtype=float) for values in line.get_data()) for line in free]
 
 
+def right_scale(axes: Axes) -> float:
+    """A number on the axis on the right over the one beside it on the left."""
+    axes.figure.canvas.draw()
+    (right,) = axes.child_axes
+    return float(right.get_ylim()[1] / axes.get_ylim()[1])
+
+
 def assert_points(axes: Axes, *expected: tuple[Any, Any, Any]) -> None:
     """The series of points are these, in this order; NaN is not plotted."""
     for series, wanted in zip(points(axes), expected, strict=True):

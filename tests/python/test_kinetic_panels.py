@@ -1,8 +1,19 @@
 """Numbers of the panels of the flux against the kinetic equation (plotted.py)."""
 
 import numpy as np
+import pytest
 
-from tests.python.plotted import CHAIN, Law, assert_line, assert_points, both, draw, lines, result
+from tests.python.plotted import (
+    CHAIN,
+    Law,
+    assert_line,
+    assert_points,
+    both,
+    draw,
+    lines,
+    result,
+    right_scale,
+)
 from workflow.physics.fluxes import MEAN_FIELD
 
 
@@ -31,6 +42,7 @@ def test_fig03() -> None:
     at_end = table[table.x == "x = 1"]
     np.testing.assert_allclose(at_end["kurtosis"], np.where(p > 0, 3.3, 3.2))
     np.testing.assert_allclose(at_end.jump, 0.75)
+    assert right_scale(above) == pytest.approx(1 / 400)  # both rates
     assert (
         "T_L = 80 (paper: 81.818), T_R = 120 (paper: 122.222)) it is 0.25 at x = 0 and 0.75 at x = 1"
         in caption
@@ -78,6 +90,7 @@ def test_fig03_inset() -> None:
     assert_points(decay, ([2, 4], [0.125, 0.0625], amplitude))
     assert_line(decay, [2, 4], [0.3 / 2 * 1.25, 0.3 / 4 * 1.25])
     np.testing.assert_allclose(table.absolute_as_printed, table.deviation * 10 / 400)
+    assert right_scale(decay) == pytest.approx(10 / 400)
     assert {*table[table.kind == MEAN_FIELD].error} == {0}
 
 
@@ -97,6 +110,7 @@ def test_fig04() -> None:
     ]  # fmt: skip
     axes, table, _ = draw("fig04", runs)
     main, near, residual, jumps = axes[:4]
+    assert right_scale(main) == pytest.approx(1 / 400)
     halves = (p < 0, p > 0)
     error = runs[0]["flux"].error
     expected = [(p[half], flux[bond][half], error[bond][half]) for bond in (1, -1) for half in halves]

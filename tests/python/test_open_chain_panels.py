@@ -1,6 +1,7 @@
 """Numbers of the panels of open chains, and of those with and without conserved momentum (plotted.py)."""
 
 import numpy as np
+import pytest
 
 from tests.python.plotted import (
     CHAIN,
@@ -10,6 +11,7 @@ from tests.python.plotted import (
     draw,
     over,
     result,
+    right_scale,
 )
 from workflow.figures.fig08 import APART
 
@@ -68,6 +70,7 @@ def test_fig02_upper() -> None:
         part = table[table.gamma == gamma]
         np.testing.assert_allclose(part.particle, run["temperature_particle"].mean)
         np.testing.assert_allclose(part.particle_error, run["temperature_particle"].error)
+    assert right_scale(above) == pytest.approx(0.5)  # E_K = T/2
 
 
 def test_fig02_lower() -> None:

@@ -86,19 +86,19 @@ const size = one => parseFloat(getComputedStyle(one).fontSize), page = document.
 const figures = [...document.images].filter(one => one.offsetParent).map(one => [one.closest("figure").id, one.clientWidth,
   one.clientWidth / one.naturalWidth, one.parentElement.scrollWidth - one.parentElement.clientWidth,
   size(one.closest("figure").querySelector("figcaption"))]);
-parent.postMessage(JSON.stringify([page.scrollWidth - page.clientWidth, page.scrollHeight, figures]), "*") })</script>"""
+parent.postMessage(JSON.stringify([page.scrollWidth - page.clientWidth, figures]), "*") })</script>"""
 
 
-def laid_out(page: str, folder: Path, width: int) -> tuple[int, int, dict[str, list[float]]]:
-    """A page in a frame, without scroll bars as on phones, read by a script: pixels beyond its width; its height; for every visible picture
+def laid_out(page: str, folder: Path, width: int) -> tuple[int, dict[str, list[float]]]:
+    """A page in a frame, without scroll bars as on phones, read by a script: pixels beyond its width; for every visible picture
     its width, its scale, how far it scrolls, and the size of the text beside it."""
     allowed = re.sub(r"<meta http-equiv=.Content-Security-Policy.*?>", "", page)
     (folder / "report.html").write_text(allowed + PROBE)
     (folder / "frame.html").write_text(FRAME.format(width=width))
     command = [*HEADLESS, f"--window-size={width + 100},1000", "--dump-dom", folder / "frame.html"]
     dom = subprocess.check_output(command, text=True, stderr=subprocess.DEVNULL)
-    beyond, height, figures = json.loads(re.search(r"\[.*\]", dom)[0])
-    return beyond, height, {name: numbers for name, *numbers in figures}
+    beyond, figures = json.loads(re.search(r"\[.*\]", dom)[0])
+    return beyond, {name: numbers for name, *numbers in figures}
 
 
 @pytest.mark.long
@@ -107,9 +107,8 @@ def test_the_report_on_a_narrow_screen(smoke: Path, tmp_path: Path) -> None:
     """Detected mistakes: a picture or a table is wider than the screen; pictures are smaller than in print; the picture of the verdicts
     without its results; details are open."""
     page = (smoke / "figures/smoke/report.html").read_text()
-    beyond, height, figures = laid_out(page, tmp_path, 390)
+    beyond, figures = laid_out(page, tmp_path, 390)
     assert beyond == 0
-    assert height < 25_000
     assert {*figures} == {*PLAN} - {"verdicts"}
     assert min(scale for _, scale, *_ in figures.values()) > 0.99
     assert [figures[name][2] for name in ("fig03", "fig05", "fig08")] == [0, 0, 0]
@@ -121,7 +120,7 @@ def test_the_report_on_a_narrow_screen(smoke: Path, tmp_path: Path) -> None:
 @pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
 def test_pictures_of_the_report_are_as_legible_as_its_text(smoke: Path, tmp_path: Path) -> None:
     """Letters have 8 to 9 points in print, those of the verdicts 7.5; CSS has 96 pixels per inch."""
-    beyond, _, figures = laid_out((smoke / "figures/smoke/report.html").read_text(), tmp_path, 1400)
+    beyond, figures = laid_out((smoke / "figures/smoke/report.html").read_text(), tmp_path, 1400)
     assert beyond == 0
     assert {*figures} == {*PLAN}
     for name, (width, scale, scrolls, text) in figures.items():
@@ -158,7 +157,6 @@ def test_the_gallery_has_every_panel_and_claim(gallery: Path) -> None:
     ids, links = ids_and_links(text)
     assert ids >= IDS
     assert ids >= {"claims", "figures", "symbols"}
-    assert len(text.split()) <= 4000
     for link in [*links, *re.findall(r'<img [^>]*src="([^"]*)"', text)]:
         inside = link.strip("#") in ids if link.startswith("#") else (gallery / link).exists()
         assert inside or link.startswith("https://doi.org/"), link

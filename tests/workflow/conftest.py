@@ -164,6 +164,19 @@ def new_project(folder: Path) -> Project:
     return Project(folder)
 
 
+def whole_project(folder: Path) -> Project:
+    """A copy of this project without results and programs, which shares packages."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    for name in filter(None, subprocess.check_output(command, cwd=ROOT, text=True).split("\0")):
+        if (ROOT / name).is_file():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, folder / name)
+    share_packages(folder)
+    (folder / "build").mkdir()
+    (folder / "workflow/pipeline/environment/setup.sh").write_text("exit 0\n")
+    return Project(folder)
+
+
 def share_packages(folder: Path) -> None:
     """An environment with the interpreter and the packages of this one, that imports the modules of the
     folder."""

@@ -91,7 +91,6 @@ def test_a_copied_build_is_refused_by_ninja(tmp_path: Path) -> None:
     """As it would compile the sources of the original."""
     ninja = ("ninja", "-C", shutil.copytree(ROOT / "build", tmp_path / "build", symlinks=True))
     done = Project(tmp_path).run(*ninja, "persistence", status=1)
-    assert str(ROOT) in done.stdout
     assert "make build" in done.stdout
 
 

@@ -2,13 +2,12 @@
 
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
-from tests.workflow.conftest import ROOT, Project, share_packages
+from tests.workflow.conftest import ROOT, Project, whole_project
 from workflow.lib.load import load
 from workflow.pipeline.configuration import PANELS
 from workflow.pipeline.plan import Plan
@@ -54,16 +53,7 @@ def link(source: str, target: str) -> None:
 
 @pytest.fixture
 def own(tmp_path: Path) -> Project:
-    """A copy of the project, which shares packages."""
-    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-    for name in filter(None, subprocess.check_output(command, cwd=ROOT, text=True).split("\0")):
-        if (ROOT / name).is_file():
-            (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / name, tmp_path / name)
-    share_packages(tmp_path)
-    (tmp_path / "build").mkdir()
-    (tmp_path / "workflow/pipeline/environment/setup.sh").write_text("exit 0\n")
-    return Project(tmp_path)
+    return whole_project(tmp_path)
 
 
 @pytest.mark.long
