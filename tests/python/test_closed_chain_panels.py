@@ -22,7 +22,7 @@ def test_fig05() -> None:
                mu=np.arccos(x) / np.pi + 0.01, particle_energy=500.0, scatterer_energy=700.0)
         for series in ("paper", "zero-momentum") for x in sigma
     ]  # fmt: skip
-    (above, below), table, caption = draw("fig05", runs)
+    (above, below), _, caption = draw("fig05", runs)
     shown = [over(part, "mu") for part in (runs[:2], runs[2:])]
     assert_points(above, *((sigma, *each) for each in shown))
     assert_points(below, *((sigma, 10, 1e3 * error) for _, error in shown))
@@ -31,8 +31,6 @@ def test_fig05() -> None:
         part = (1 - momentum / mass) / mass
         expected = np.arccos((sigma + part) / (1 - part)) / np.pi
         assert_line(below, sigma, 1e3 * (expected - np.arccos(sigma) / np.pi))
-    np.testing.assert_allclose(table.law, [2 / 3, 1 / 3] * 2)
-    np.testing.assert_allclose(table.deviation, 0.01)
     assert "0.0100(" in caption
 
 
@@ -139,7 +137,7 @@ def pulses() -> list[Result]:
 
 def test_fig09() -> None:
     runs = pulses()
-    axes, table, _ = draw("fig09", runs)
+    axes, *_ = draw("fig09", runs)
     panels = dict(zip(("rest", "gaussian", "position", "speed"), axes, strict=False))
     distance = np.arange(11) - 5
     for run in runs:
@@ -154,9 +152,6 @@ def test_fig09() -> None:
     assert_points(panels["speed"], *((middle, *both(run["peak_speed"])) for run in runs))
     for run in runs:
         assert_line(panels["position"], time, run["peak_position"].mean[0] * time / time[0])
-    part = table[(table.time == 0.04) & (table.scatterer_temperature == "0.0")]
-    np.testing.assert_allclose(part.energy_difference, runs[0]["energy_difference"].mean[2])
-    np.testing.assert_allclose(part.energy_difference_error, runs[0]["energy_difference"].error[2])
 
 
 def test_fig10() -> None:
@@ -168,8 +163,6 @@ def test_fig10() -> None:
     middles = np.sqrt([0.01 * 0.02, 0.02 * 0.04])
     assert_points(below, *((middles, *both(run["local_damping_exponent"])) for run in runs))
     rest = table[table.scatterer_temperature == "0.0"]
-    np.testing.assert_allclose(rest.octave_middle.dropna(), middles)
-    np.testing.assert_allclose(rest.octave_exponent.dropna(), [0.6, 0.6])
     np.testing.assert_allclose(rest.exponent_from_here.dropna(), [0.7, 0.71])
     np.testing.assert_allclose(rest.speed_to_next.dropna(), [300, 303])
     assert "from rest, is 0.6000(60) and 0.6000(66)" in caption
