@@ -13,11 +13,12 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+import pytest
 from numpy.typing import ArrayLike
 
 from tests.python.conftest import ROOT
 from workflow.lib.identity import sha256
-from workflow.lib.load import Result, load
+from workflow.lib.load import FormatError, Result, load
 from workflow.pipeline.plan import Plan
 from workflow.render.__main__ import draw
 from workflow.render.record import RELEASE
@@ -33,7 +34,11 @@ def stored(path: Path) -> Result:
 
 
 def results_of_release() -> list[Result]:
-    return [stored(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+    """All of them, for other tests."""
+    try:
+        return [stored(path) for path in sorted((ROOT / "data/paper").glob("*/*.h5"))]
+    except FormatError:
+        pytest.skip("data/paper has another format, which tests/python/test_release.py reports")
 
 
 def result(run: str) -> Result:

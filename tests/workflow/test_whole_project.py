@@ -33,7 +33,7 @@ CONFIGURATION = """panels:
     series:
       paper: {sigma: [-0.5, 0.5]}
 """
-KEPT = ("numerics", "support", "reference", "build_info.cpp", "CMakeLists.txt", "bench")  # of tests/cpp
+KEPT = ("numerics", "support", "reference", "build_info.cpp", "CMakeLists.txt")  # of tests/cpp
 OF_A_QUALITY = {"figures", "panel", "report", "gallery", "audit", "status", "verify"}
 ARGUMENTS = {
     "panel": ["PANEL=fig05"],
