@@ -176,7 +176,7 @@ def test_a_mistake_in_a_script_keeps_the_former_files_and_is_one_line(project: P
 
 def test_the_study_may_be_missing(project: Project) -> None:
     """As of a colleague who needs one figure."""
-    shutil.rmtree(project.folder / "workflow/study")
+    shutil.rmtree(project.folder / "workflow/study", ignore_errors=True)  # or is
     append("workflow/figures/mu.py", "# x\n")(project)
     project.entry("figures")
     project.entry("status")
@@ -209,7 +209,6 @@ def test_panels_of_the_user_are_made_by_name_alone(project: Project) -> None:
     project.entry("panel", "PANEL=mine")
     (own / "helper.py").write_text("NUMBER = 4\n")
     assert "changed: own/helper.py" in project.entry("status", status=1)
-    assert "mine" not in project.entry("report", "DRY=yes")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])

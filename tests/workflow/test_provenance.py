@@ -133,26 +133,6 @@ def test_audit_and_status_report_stale_edited_and_missing_files(project: Project
         assert any(line.startswith(f"{state}: {path}") and reason in line for line in lines), printed
 
 
-def test_status_covers_the_report(project: Project) -> None:
-    """Detected mistakes: a report of former sources is unmodified; an edited one is fresh."""
-    project.entry("report")
-    project.entry("status")
-    page = project.folder / "figures/smoke/report.html"
-    (project.folder / "talk.html").write_bytes(page.read_bytes())
-    printed = provenance(project, project.folder / "talk.html")
-    assert printed.startswith("unmodified, current\npanel report, quality smoke: make report QUALITY=smoke\n")
-    page.write_bytes(content := page.read_bytes() + b"mine")
-    assert "edited: figures/smoke/report.html" in project.entry("status", status=1)
-    printed = project.entry("report", status=1)
-    assert "figures/smoke/report.html" in printed
-    assert "The report is" not in printed
-    assert page.read_bytes() == content  # edited files are kept
-    substitute("workflow/study/claims.csv", "fig. 1", "fig. 2")(project)
-    assert "stale: figures/smoke/report.html" in project.entry("status", status=1)
-    project.entry("report")
-    project.entry("status")
-
-
 def test_a_panel_beside_an_edited_file_is_no_success(project: Project) -> None:
     """Of its own, or of a result; other panels are."""
     write("figures/smoke/mu.csv")(project)

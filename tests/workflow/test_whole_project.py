@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import ROOT, whole_project
+from tests.workflow.conftest import whole_project
 
 pytestmark = pytest.mark.long
 
@@ -15,9 +15,8 @@ def test_figures_and_tests_without_the_study(smoke: Path, tmp_path: Path) -> Non
     """As of a colleague who needs the figures alone. Detected mistake: something of the order imports the study, or
     names what it has."""
     project = whole_project(tmp_path / "a copy")
-    for name in ("build/bin", "build/describe"):
-        shutil.copytree(ROOT / name, project.folder / name)
-    shutil.copytree(smoke / "data/smoke", project.folder / "data/smoke")
+    for name in ("build", "data/smoke"):
+        shutil.copytree(smoke / name, project.folder / name, symlinks=True, dirs_exist_ok=True)
     for name in ("workflow/study", "tests/study"):
         shutil.rmtree(project.folder / name)
     before = project.files("data/smoke")
