@@ -55,6 +55,8 @@ def test_every_target_of_make_help(tmp_path: Path) -> None:
     (tmp_path / "workflow/config/paper.yaml").write_text(CONFIGURATION)
     for path in (tmp_path / "workflow/config/quality").iterdir():
         path.write_text("default: {replicas: 4}\n")
+    for name in ("clang-format", "ruff", "mypy", "snakefmt"):
+        shutil.copy(ROOT / ".venv/bin" / name, tmp_path / ".venv/bin")
     for words in (["init", "--quiet"], ["add", "--all", "--force", "cpp", "tests", "workflow", "Snakefile"]):
         project.run("git", *words)
     targets = re.findall(r"^make (\S+)", project.run("make", "help").stdout, re.MULTILINE)
