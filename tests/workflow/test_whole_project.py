@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import whole_project
+from tests.workflow.conftest import ROOT, whole_project
 
 pytestmark = pytest.mark.long
 
