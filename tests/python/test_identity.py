@@ -38,7 +38,8 @@ def test_no_other_program_uses_the_sources_of_one() -> None:
 def test_all_that_a_program_includes_is_in_its_hash(program: str) -> None:
     """Also what lies in the .cpp beside an included header."""
     cpp = ROOT / "cpp"
-    included, found = set(), {f"observables/{program}.cpp"}
+    included: set[str] = set()
+    found = {f"observables/{program}.cpp"}
     while found:
         path = found.pop()
         included.add(path)
