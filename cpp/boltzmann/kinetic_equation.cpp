@@ -150,6 +150,15 @@ double HalfFlux::moment(std::size_t n) const {
   return n == 2 ? temperature * square : temperature * temperature * fourth;
 }
 
+double HalfFlux::kurtosis() const {
+  const double value = moment(4) * moment(0) / (moment(2) * moment(2));
+  return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+double Flux::integral(double low, double high) const {
+  return low < 0 ? left.integral(-low) - left.integral(-high) : right.integral(high) - right.integral(low);
+}
+
 double Flux::particle_temperature() const {
   return (right.moment(2) + left.moment(2)) / (right.moment(0) + left.moment(0));
 }
@@ -161,7 +170,7 @@ double Flux::scatterer_temperature(double sigma) const {
 }
 
 KineticSolution::KineticSolution(const KineticProblem& problem, std::size_t order,
-                                 const KineticSolution* guess)
+                                 const KineticSolution* guess, const std::function<void(double)>& on_step)
     : problem_(without_exchange(problem)),
       temperature_(mean_temperature(problem.left, problem.right)),
       order_(order),
@@ -182,7 +191,7 @@ KineticSolution::KineticSolution(const KineticProblem& problem, std::size_t orde
   prepare(right_);
   prepare(left_);
   if (guess && guess->x_.size() == x_.size() && guess->modes() == modes()) jacobian_ = guess->jacobian_;
-  iterate(first_guess(guess));
+  iterate(first_guess(guess), on_step);
   set_net_gain(right_);
   set_net_gain(left_);
 }
@@ -349,7 +358,7 @@ Matrix KineticSolution::step(const Matrix& f, bool renew_jacobian) {
   return step;
 }
 
-void KineticSolution::iterate(Matrix f) {
+void KineticSolution::iterate(Matrix f, const std::function<void(double)>& on_step) {
   constexpr double rounding = 1e-13;    // step that rounding permits
   constexpr double acceptable = 1e-10;  // step that suffices if steps no longer become smaller
   constexpr double frozen = 1e-2;       // largest step after which the Jacobian is kept
@@ -360,6 +369,7 @@ void KineticSolution::iterate(Matrix f) {
   for (bool renew = !jacobian_;; renew = last > frozen) {
     const Matrix change = step(f, renew);
     const double size = largest(change) / rates;
+    if (on_step) on_step(size);
     // Of a geometric series of steps; where rounding makes them equal, of 100 more of them.
     iteration_error_ = size / (1 - std::min(size / last, 0.99));
     const bool at_rest = size < rounding || (size < acceptable && size > 0.9 * last);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -67,12 +68,15 @@ struct HalfFlux {
   double integral(double p) const;                              // over momenta from 0 to p
   std::vector<double> hermite_moments(std::size_t size) const;  // int h_n(|u|) F dp
   double moment(std::size_t n) const;                           // int |p|^n F dp, n = 0, 1, 2 or 4
+  double kurtosis() const;                                      // <p^4>/<p^2>^2; NaN without particles
 };
 
 /// F(p) at one position.
 struct Flux {
   HalfFlux right, left;  // p > 0, p < 0
 
+  double density(double p) const { return p < 0 ? left.density(-p) : right.density(p); }
+  double integral(double low, double high) const;  // over momenta on one side of p = 0
   double particle_current() const { return right.moment(0) - left.moment(0); }        // [eq. 26]
   double energy_current() const { return 0.5 * (right.moment(2) - left.moment(2)); }  // [eq. 26]
   double jump() const { return right.density(0) - left.density(0); }                  // at p = 0
@@ -85,8 +89,9 @@ struct Flux {
 class KineticSolution {
  public:
   /// `order`: number of coefficients. `guess`: a solution of the problem at a lower order, from which the
-  /// iteration starts. Throws ConvergenceError.
-  KineticSolution(const KineticProblem& problem, std::size_t order, const KineticSolution* guess = nullptr);
+  /// iteration starts. `on_step` is called with the size of every step. Throws ConvergenceError.
+  KineticSolution(const KineticProblem& problem, std::size_t order, const KineticSolution* guess = nullptr,
+                  const std::function<void(double)>& on_step = {});
 
   Flux at(double x) const;                    // continuum, 0 <= x <= 1
   Flux at_bond(std::size_t bond) const;       // chain; bonds 0 and `cells` are its ends
@@ -115,7 +120,7 @@ class KineticSolution {
   Matrix image() const;
   Matrix linearised(const Matrix& f) const;
   Matrix step(const Matrix& f, bool renew_jacobian);
-  void iterate(Matrix f);
+  void iterate(Matrix f, const std::function<void(double)>& on_step);
   void set_net_gain(Direction& direction) const;
 
   KineticProblem problem_;

@@ -6,8 +6,9 @@
 /// with F(p > 0) at x = 0 and F(p < 0) at x = 1 given by the reservoirs (half-Gaussian) [eq. 5]. With --cells
 /// it is solved for a chain of N scatterers, each with its own F and g (mean field) [eq. 41].
 ///
-/// The result is deterministic. The error of a quantity is the sum of the changes with the order of the
-/// series that are still to come, if they fall as the last two did, and rounding.
+/// The result is deterministic. The error of a quantity is twice the sum of the changes with the order of the
+/// series that are still to come, if they fall as those of F did, and rounding. F and its changes are
+/// compared at momenta and positions that do not depend on the output.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,12 +20,14 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "boltzmann/kinetic_equation.hpp"
+#include "model/conduction.hpp"
 #include "program/program.hpp"
-#include "sampling/chain_parameters.hpp"
 #include "sampling/momentum_bins.hpp"
+#include "sampling/reservoir_parameters.hpp"
 
 namespace {
 
@@ -78,13 +81,14 @@ void validate(const Parameters& parameters, bool positions_given) {
         "--nu-left and --nu-right are both 0: there are no particles. Choose one greater than 0.");
 }
 
-/// Flux at the positions of the output.
+/// Flux at positions of the continuum, or of a chain.
 struct Profile {
   std::vector<Flux> crossings, scatterers;
 
-  Profile(const Parameters& parameters, const KineticSolution& solution) {
+  Profile(const Parameters& parameters, const std::vector<double>& positions,
+          const KineticSolution& solution) {
     if (!parameters.cells) {
-      for (const double x : parameters.positions) crossings.push_back(solution.at(x));
+      for (const double x : positions) crossings.push_back(solution.at(x));
       scatterers = crossings;
       return;
     }
@@ -94,13 +98,15 @@ struct Profile {
   }
 };
 
-/// Quantity with its formula, and the scale of its rounding error: its largest value, but for currents, which
-/// may vanish, what both baths inject.
+/// Quantity with its formula, the scale of its rounding error (its largest value, but for currents, which may
+/// vanish, what both baths inject), and what states its error: a quantity at bins of the output has that of
+/// F.
 struct Definition {
   using Formula = std::function<std::vector<double>(const Profile&)>;
   Description what;
   Formula formula;
   double scale = 0;
+  bool has_error_of_flux = false;
 };
 
 /// Formula of a quantity along an axis of positions.
@@ -116,12 +122,32 @@ Definition::Formula at_every(std::vector<Flux> Profile::* positions,
   };
 }
 
-/// -J_U N/(T_N - T_1) [eq. 28]; NaN in the continuum and without a difference of temperatures.
+/// F at p = 0+ and 0-, and up to six thermal momenta of either bath, in steps that resolve the highest order.
+Definition::Formula flux_for_errors(const Parameters& parameters) {
+  std::vector<double> momenta;
+  for (const double temperature : {parameters.left.temperature, parameters.right.temperature})
+    for (int k = 0; k <= 96; ++k) momenta.push_back(k / 16. * std::sqrt(temperature));
+  return at_every(&Profile::crossings, [=](const Flux& flux) {
+    std::vector<double> values;
+    for (const double p : momenta) values.insert(values.end(), {flux.left.density(p), flux.right.density(p)});
+    return values;
+  });
+}
+
+/// Why there is no conductivity; empty if there is one.
+std::string reason_without_kappa(const Parameters& parameters) {
+  if (!parameters.cells) return "the continuum has no scatterers at its ends; choose --cells";
+  if (*parameters.cells == 1) return "a single cell has no difference of temperature; choose more --cells";
+  return reason_without_conduction(parameters.left, parameters.right, parameters.problem().gamma,
+                                   parameters.sigma, parameters.sigma != 0);
+}
+
+/// -J_U N/(T_N - T_1) [eq. 28].
 double conductivity(const Parameters& parameters, const Profile& profile) {
-  const double first = profile.scatterers.front().scatterer_temperature(parameters.sigma),
-               rise = profile.scatterers.back().scatterer_temperature(parameters.sigma) - first;
-  if (!parameters.cells || !(std::abs(rise) > 1e-10 * first)) return none;
-  return -profile.crossings.front().energy_current() * *parameters.cells / rise;
+  if (!reason_without_kappa(parameters).empty()) return none;
+  return -profile.crossings.front().energy_current() * *parameters.cells /
+         (profile.scatterers.back().scatterer_temperature(parameters.sigma) -
+          profile.scatterers.front().scatterer_temperature(parameters.sigma));
 }
 
 std::vector<Definition> definitions(const Parameters& parameters) {
@@ -141,44 +167,33 @@ std::vector<Definition> definitions(const Parameters& parameters) {
   }
   const Axis momentum = momentum_axis(bins);
   const Axis half{"half", "1", "Sign of p", {-1, 1}};
-  const auto mean_flux = [=](const Flux& flux) {
+  const auto crossings = &Profile::crossings, scatterers = &Profile::scatterers;
+  const auto mean_over_bins = [=](const Flux& flux) {
     std::vector<double> values;
-    for (std::size_t bin = 0; bin < bins.count(); ++bin) {
-      const double low = bins.edge(bin), high = bins.edge(bin + 1);
-      values.push_back((low < 0 ? flux.left.integral(-low) - flux.left.integral(-high)
-                                : flux.right.integral(high) - flux.right.integral(low)) /
-                       bins.width());
-    }
+    for (std::size_t bin = 0; bin < bins.count(); ++bin)
+      values.push_back(flux.integral(bins.edge(bin), bins.edge(bin + 1)) / bins.width());
     return values;
   };
   const auto density = [=](const Flux& flux) {
     std::vector<double> values;
-    for (const double p : momentum.values)
-      values.push_back(p < 0 ? flux.left.density(-p) : flux.right.density(p));
+    for (const double p : momentum.values) values.push_back(flux.density(p));
     return values;
   };
-  const auto kurtosis = [](const Flux& flux) {
-    std::vector<double> values;
-    for (const HalfFlux* side : {&flux.left, &flux.right}) {
-      const double value = side->moment(4) * side->moment(0) / (side->moment(2) * side->moment(2));
-      values.push_back(std::isfinite(value) ? value : none);
-    }
-    return values;
-  };
-  const auto first = [](auto number) {
-    return [=](const Profile& profile) { return std::vector{number(profile.crossings.front())}; };
-  };
-  const auto crossings = &Profile::crossings, scatterers = &Profile::scatterers;
   return {{{"flux", "1/(time momentum)", "F(p, x), mean over a bin of p", {x, momentum}},
-           at_every(crossings, mean_flux)},
-          {{"flux_density", "1/(time momentum)", "F(p, x)", {x, momentum}}, at_every(crossings, density)},
+           at_every(crossings, mean_over_bins),
+           0,
+           true},
+          {{"flux_density", "1/(time momentum)", "F(p, x)", {x, momentum}},
+           at_every(crossings, density),
+           0,
+           true},
           {{"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}},
            at_every(crossings, [](const Flux& flux) { return std::vector{flux.jump()}; })},
           {{"particle_current", "1/time", "Particles to the right minus to the left"},
-           first([](const Flux& flux) { return flux.particle_current(); }),
+           [](const Profile& profile) { return std::vector{profile.crossings.front().particle_current()}; },
            particles},
           {{"energy_current", "energy/time", "Energy to the right minus to the left"},
-           first([](const Flux& flux) { return flux.energy_current(); }),
+           [](const Profile& profile) { return std::vector{profile.crossings.front().energy_current()}; },
            energy},
           {{"kappa", "energy/(time temperature)", "-J_U N / (T_N - T_1); NaN without --cells"},
            [=](const Profile& profile) { return std::vector{conductivity(parameters, profile)}; }},
@@ -188,7 +203,9 @@ std::vector<Definition> definitions(const Parameters& parameters) {
           {{"temperature_particle", "temperature", "<p^2> over the arrivals at a scatterer", {site}},
            at_every(scatterers, [](const Flux& flux) { return std::vector{flux.particle_temperature()}; })},
           {{"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}},
-           at_every(crossings, kurtosis)}};
+           at_every(crossings, [](const Flux& flux) {
+             return std::vector{flux.left.kurtosis(), flux.right.kurtosis()};
+           })}};
 }
 
 std::vector<Description> descriptions(const Parameters& parameters) {
@@ -214,33 +231,51 @@ double difference(std::vector<double> a, const std::vector<double>& b) {
   return largest(a);
 }
 
-/// Bound on the error of the last of three values: the sum of a geometric series of changes, where the orders
-/// increase by one factor. A tenth of the former change, if it is larger than the last one, as two solutions
-/// may agree by chance.
-double remainder(const std::vector<double>& first, const std::vector<double>& second,
-                 const std::vector<double>& last) {
-  const double former = difference(second, first), change = difference(last, second);
-  const double ratio = former > 0 ? std::min(change / former, 0.99) : 0.;
-  return std::max(change, 0.1 * former) / (1 - ratio);
-}
-
-/// Values of all quantities, in the order of the definitions.
+/// Values that state the errors, by quantity: of F first.
 using Values = std::vector<std::vector<double>>;
 
-Values evaluate(const std::vector<Definition>& definitions, const Profile& profile) {
-  Values values;
-  for (const Definition& definition : definitions) values.push_back(definition.formula(profile));
-  return values;
+/// Changes between the last four orders, or the last three, the latest first.
+std::vector<double> changes(const std::vector<Values>& orders, std::size_t quantity) {
+  std::vector<double> result;
+  for (std::size_t k = orders.size() - 1; k > 0 && result.size() < 3; --k)
+    result.push_back(difference(orders[k][quantity], orders[k - 1][quantity]));
+  return result;
 }
 
-/// The quantities at the last of at least three orders, with their errors.
-Results results(const std::vector<Definition>& definitions, const std::vector<Values>& orders,
-                double rounding) {
+/// Factor by which changes fall from order to order, the larger one of the last two, but at most `slowest`.
+double rate_of(const std::vector<double>& changes, double slowest) {
+  if (changes.size() < 3) return slowest;
+  double rate = 0;
+  for (std::size_t k = 0; k < 2; ++k)
+    if (changes[k] > 0) rate = std::max(rate, std::min(slowest, changes[k] / changes[k + 1]));
+  return rate;
+}
+
+/// Bound on the changes to come: twice a geometric series. A single number may change little by chance, so
+/// that former changes count, as far as they would have fallen.
+double remainder(const std::vector<double>& changes, double rate) {
+  double largest = 0, factor = 1;
+  for (const double change : changes)
+    largest = std::max(largest, std::exchange(factor, factor * rate) * change);
+  return 2 * rate / (1 - rate) * largest;
+}
+
+/// The quantities at the last of at least three orders, with their errors. A number converges no slower than
+/// F over all momenta. Where the series of F has not begun to converge, its error is at most ten times the
+/// last change, which the slowest rate gives, and that of a number at most forty times.
+Results results(const std::vector<Definition>& definitions, const Profile& profile,
+                const std::vector<Values>& orders, double rounding) {
   Results results;
+  constexpr double slowest = 0.85, slowest_of_numbers = 0.97;
+  const double rate_of_flux = rate_of(changes(orders, 0), slowest);
   for (std::size_t k = 0; k < definitions.size(); ++k) {
-    const std::vector<double>& values = orders.back()[k];
-    const double error = remainder(orders[orders.size() - 3][k], orders[orders.size() - 2][k], values) +
-                         rounding * std::max(definitions[k].scale, largest(values));
+    const std::vector<double> values = definitions[k].formula(profile);
+    const std::size_t stating = definitions[k].has_error_of_flux ? 0 : k + 1;
+    const std::vector<double> last = changes(orders, stating);
+    const bool converging = stating == 0 || rate_of_flux < slowest;
+    const double rate = converging ? rate_of_flux : std::max(slowest, rate_of(last, slowest_of_numbers));
+    const double error =
+        remainder(last, rate) + rounding * std::max(definitions[k].scale, largest(orders.back()[stating]));
     std::vector<double> errors;
     for (const double value : values) errors.push_back(std::isfinite(value) ? error : none);
     results.push_back({definitions[k].what, values, errors});
@@ -275,15 +310,27 @@ RunResult solve(const Parameters& parameters, Progress& progress) try {
   constexpr std::size_t lowest = 8, highest = 700;
   constexpr double rounding = 5e-14;
   const std::vector<Definition> quantities = definitions(parameters);
+  const Definition::Formula flux = flux_for_errors(parameters);
   std::vector<Values> orders;
   std::unique_ptr<KineticSolution> solution;
   RunResult outcome{.target_quantity = "flux and currents", .target_error = parameters.target_error};
   for (std::size_t order = lowest; order < highest; order = 3 * order / 4 * 2) try {
-      solution = std::make_unique<KineticSolution>(parameters.problem(), order, solution.get());
+      const auto show = [&](double step) {
+        if (!progress.due()) return;
+        const std::string error =
+            outcome.results.empty() ? "not known yet" : fmt::format("{:.1e}", outcome.achieved_error);
+        progress.say(fmt::format("the series converges slowly: error {}; order {} of at most {}, step {:.1e}",
+                                 error, order, highest, step));
+      };
+      solution = std::make_unique<KineticSolution>(parameters.problem(), order, solution.get(), show);
       outcome.events += static_cast<std::uint64_t>(solution->evaluations());
-      orders.push_back(evaluate(quantities, Profile(parameters, *solution)));
+      const Profile stating(parameters, Parameters().positions, *solution);
+      Values& values = orders.emplace_back(1, flux(stating));
+      for (const Definition& quantity : quantities)
+        values.push_back(quantity.has_error_of_flux ? std::vector<double>() : quantity.formula(stating));
       if (orders.size() < 3) continue;
-      outcome.results = results(quantities, orders, rounding + solution->iteration_error());
+      outcome.results = results(quantities, Profile(parameters, parameters.positions, *solution), orders,
+                                rounding + solution->iteration_error());
       outcome.achieved_error = relative_error(parameters, outcome.results);
       if (outcome.achieved_error > parameters.target_error) continue;
       outcome.convergence = Convergence::reached;
@@ -312,6 +359,10 @@ int main(int argc, char** argv) {
     validate(parameters, program.options().given("--positions"));
     return descriptions(parameters);
   };
-  return program.run(argc, argv, quantities,
-                     [&] { return program.write(solve(parameters, program.progress())); });
+  return program.run(argc, argv, quantities, [&] {
+    const RunResult result = solve(parameters, program.progress());
+    if (const std::string reason = reason_without_kappa(parameters); parameters.cells && !reason.empty())
+      program.progress().say(fmt::format("kappa is NaN: {}", reason));
+    return program.write(result);
+  });
 }

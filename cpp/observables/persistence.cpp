@@ -4,10 +4,8 @@
 /// In equilibrium mu = arccos(sigma)/pi for elastic collisions [eq. 10]. In a finite chain the conservation
 /// of the total momentum changes it [eq. 11], by an amount that follows from the temperature at which
 /// particles and scatterers meet: their mean energies before scatterings are stored.
-#include <array>
 #include <bit>
 #include <cstdint>
-#include <vector>
 
 #include "sampling/closed_run.hpp"
 
@@ -22,6 +20,13 @@ int keeps_direction(double before, double after) {
   return static_cast<int>(~(one ^ other) >> 63) & int{after != 0};
 }
 
+struct Tallies : ClosedTallies {
+  ScalarTally number = tally("number", "1", "Scatterings");
+  ScalarTally keeping = tally("keeping", "1", "Scatterings with p' p > 0");
+  ScalarTally particle_energy = tally("particle_energy", "energy", "Sum over scatterings");
+  ScalarTally scatterer_energy = tally("scatterer_energy", "energy", "Sum over scatterings");
+};
+
 /// Sums over scatterings.
 struct Scatterings {
   std::int64_t number = 0, keeping = 0;
@@ -35,30 +40,6 @@ struct Scatterings {
   }
 };
 
-struct MeanOverScatterings {
-  const char *name, *units, *description;
-  double (*sum)(const Scatterings&);
-};
-
-constexpr std::array means{
-    MeanOverScatterings{"mu", "1", "Fraction of scatterings with p' p > 0",
-                        [](const Scatterings& sums) { return static_cast<double>(sums.keeping); }},
-    MeanOverScatterings{"particle_energy", "energy",
-                        "Mean kinetic energy of a particle as it meets a scatterer",
-                        [](const Scatterings& sums) { return sums.particle_energy; }},
-    MeanOverScatterings{"scatterer_energy", "energy",
-                        "Mean kinetic energy of a scatterer as a particle meets it",
-                        [](const Scatterings& sums) { return sums.scatterer_energy; }}};
-
-struct Tallies : ClosedTallies {
-  ScalarTally number = tally("number", "1", "Scatterings");
-  std::vector<ScalarTally> sums;  // of the means
-
-  Tallies() {
-    for (const auto& mean : means) sums.push_back(tally(mean.name, mean.units, "Sum over scatterings"));
-  }
-};
-
 Study persistence(const ClosedParameters& parameters) {
   validate(parameters);
   const Tallies tallies;
@@ -66,14 +47,19 @@ Study persistence(const ClosedParameters& parameters) {
     Scatterings scatterings;
     run.observe(scatterings);
     sums[tallies.number] = static_cast<double>(scatterings.number);
-    for (std::size_t k = 0; k < means.size(); ++k) sums[tallies.sums[k]] = means[k].sum(scatterings);
+    sums[tallies.keeping] = static_cast<double>(scatterings.keeping);
+    sums[tallies.particle_energy] = scatterings.particle_energy;
+    sums[tallies.scatterer_energy] = scatterings.scatterer_energy;
+  };
+  const auto per_scattering = [number = tallies.number](ScalarTally sum) {
+    return [=](TallyMeans mean) { return mean[sum] / mean[number]; };
   };
   Group group;
-  for (std::size_t k = 0; k < means.size(); ++k)
-    group.quantity(means[k].name, means[k].units, means[k].description,
-                   [sum = tallies.sums[k], number = tallies.number](TallyMeans mean) {
-                     return mean[sum] / mean[number];
-                   });
+  group.quantity("mu", "1", "Fraction of scatterings with p' p > 0", per_scattering(tallies.keeping));
+  group.quantity("particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer",
+                 per_scattering(tallies.particle_energy));
+  group.quantity("scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it",
+                 per_scattering(tallies.scatterer_energy));
   return closed_study(parameters, tallies, observe, {group}, "mu");
 }
 

@@ -23,6 +23,8 @@
 namespace lorentz {
 namespace {
 
+constexpr std::int64_t format_version = 7;  // FORMAT_VERSION of workflow/lib/load.py, which refuses others
+
 std::string cost_path(const std::string& output) {
   const std::string stem = output.ends_with(".h5") ? output.substr(0, output.size() - 3) : output;
   return stem + ".cost.json";
@@ -63,7 +65,7 @@ void write_quantity(Hdf5Writer& file, const Quantity& quantity) {
     file.attribute(group + "/mean", "control_variates",
                    static_cast<std::int64_t>(quantity.control_variates->used));
   if (quantity.count.empty()) {
-    const auto* error = "Difference from a coarser discretisation, and rounding";
+    const auto* error = "Bound on the changes with a finer discretisation, and rounding";
     file.array(group, {"discretisation_error", units, error, axes}, quantity.standard_error);
   } else {
     const auto* error = "Standard error of the mean over replicas";
@@ -121,7 +123,7 @@ ExitStatus Program::write(const RunResult& result) const {
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{7}},
+      {"format_version", format_version},
       {"program", options_.program()},
       {"option_words", options_.option_words()},
       {"source_hash", std::string(build_info.source_hash)},

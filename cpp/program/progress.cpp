@@ -25,12 +25,17 @@ int decimal_exponent(double x) {
 
 Progress::Progress(std::string program) : program_(std::move(program)) {}
 
-void Progress::show(double done, std::uint64_t wanted, double resumed) {
-  using Seconds = std::chrono::duration<double>;
+bool Progress::due() {
   const Clock::time_point now = Clock::now();
-  if (style == "none" || now - last_shown_ < Seconds(10)) return;
+  if (style == "none" || now - last_shown_ < std::chrono::seconds(10)) return false;
   last_shown_ = now;
-  const double left = Seconds(now - start_).count() * (static_cast<double>(wanted) - done) / (done - resumed);
+  return true;
+}
+
+void Progress::show(double done, std::uint64_t wanted, double resumed) {
+  if (!due()) return;
+  const double left = std::chrono::duration<double>(last_shown_ - start_).count() *
+                      (static_cast<double>(wanted) - done) / (done - resumed);
   constexpr double longest = 1e8;  // s; a longer time left is a guess from hardly anything
   warn(fmt::format("{:.1f} of {}, {}", done, counted(wanted),
                    left < longest ? as_time(left) + " left" : "time left unknown"));

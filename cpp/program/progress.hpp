@@ -13,6 +13,9 @@ class Progress {
 
   std::string style = "log";  // or none
 
+  /// Whether a line is due.
+  bool due();
+
   /// done and wanted: numbers of replicas, fractions included; resumed: how many of them come from a file.
   void show(double done, std::uint64_t wanted, double resumed);
 

@@ -79,13 +79,6 @@ void validate(const RuleParameters& parameters) {
     }
 }
 
-void require_probability(std::optional<double> gamma, std::uint32_t cells) {
-  if (gamma && *gamma > cells)
-    throw UsageError(fmt::format(
-        "--gamma {} exceeds --cells {}: gamma/N is a probability. Choose more cells or a smaller gamma.",
-        *gamma, cells));
-}
-
 void require_memory(double particles, const std::string& options) {
   constexpr double most = 1e9;
   if (particles > most)
@@ -116,17 +109,6 @@ void validate(const ScatteringParameters& parameters) {
         "--sigma {}: the paper's formula has no such limit. Choose a --sigma between -1 and 1, or "
         "--rule elastic.",
         parameters.sigma));
-}
-
-void declare(Options& options, Reservoir& left, Reservoir& right) {
-  options.real(Role::physics, "--nu-left", left.rate, non_negative, "1/time",
-               "Particles injected at the left per unit time");
-  options.real(Role::physics, "--nu-right", right.rate, non_negative, "1/time",
-               "Particles injected at the right per unit time");
-  options.real(Role::physics, "--temperature-left", left.temperature, positive, "temperature",
-               "Temperature of the left reservoir");
-  options.real(Role::physics, "--temperature-right", right.temperature, positive, "temperature",
-               "Temperature of the right reservoir");
 }
 
 ClosedChain ClosedChainParameters::chain() const {

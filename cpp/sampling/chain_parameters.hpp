@@ -9,9 +9,9 @@
 
 #include "model/closed_chain.hpp"
 #include "model/collision_rule.hpp"
-#include "model/reservoir.hpp"
 #include "model/rules/elastic.hpp"
 #include "program/options.hpp"
+#include "sampling/reservoir_parameters.hpp"
 
 namespace lorentz {
 
@@ -45,9 +45,6 @@ void declare(Options& options, RuleParameters& parameters);
 /// Throws UsageError unless the options of the rule, and of no other rule, are given.
 void validate(const RuleParameters& parameters);
 
-/// Throws UsageError if particles would have to scatter more than once per cell; gamma none: N.
-void require_probability(std::optional<double> gamma, std::uint32_t cells);
-
 /// Throws UsageError if a replica would have more than 1e9 particles, which `options` determine.
 void require_memory(double particles, const std::string& options);
 
@@ -57,9 +54,6 @@ void require_resolved(double time, double end, const std::string& options);
 
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const ScatteringParameters& parameters);
-
-/// Declares --nu-left, --nu-right, --temperature-left and --temperature-right.
-void declare(Options& options, Reservoir& left, Reservoir& right);
 
 /// Parameters of a closed chain.
 struct ClosedChainParameters {

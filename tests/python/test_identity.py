@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.pipeline.sources import code, owner, source_hash
+from workflow.pipeline.sources import code, determines, source_hash
 
 PROGRAMS = sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp"))
+SAMPLED = {*PROGRAMS} - {"boltzmann"}
 
 
 def test_comments_are_removed_as_by_the_preprocessor() -> None:
@@ -29,7 +30,23 @@ def test_no_other_program_uses_the_sources_of_one() -> None:
     for path in (ROOT / "cpp").rglob("*.[ch]pp"):
         source = path.relative_to(ROOT / "cpp").as_posix()
         for included in include.findall(path.read_text()):
-            assert owner(source) == owner(included), f"{source} includes {included}"
+            programs = [program for program in PROGRAMS if determines(source, program)]
+            assert all(determines(included, program) for program in programs), f"{source} includes {included}"
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_all_that_a_program_includes_is_in_its_hash(program: str) -> None:
+    """Also what lies in the .cpp beside an included header."""
+    cpp = ROOT / "cpp"
+    included: set[str] = set()
+    found = {f"observables/{program}.cpp"}
+    while found:
+        path = found.pop()
+        included.add(path)
+        headers = re.findall(r'#include "([^"]+)"', (cpp / path).read_text())
+        both = {*headers, *(header.replace(".hpp", ".cpp") for header in headers)}
+        found |= {path for path in both if (cpp / path).exists()} - included
+    assert all(determines(path, program) for path in included)
 
 
 @pytest.mark.parametrize(
@@ -57,6 +74,10 @@ def cpp(tmp_path: Path) -> Path:
         ("CMakeLists.txt", "set(X)\n", set()),
         ("observables/heat_current/currents.hpp", "int x;\n", {"heat_current"}),
         ("boltzmann/solver.cpp", "int x;\n", {"boltzmann"}),
+        ("model/rules/mine.hpp", "int x;\n", SAMPLED),
+        ("model/rules.hpp", "int x;\n", SAMPLED),
+        ("sampling/chain_parameters.cpp", "int x;\n", SAMPLED),
+        ("model/reservoir.hpp", "int x;\n", {*PROGRAMS}),
         ("observables/mine.cpp", "int main() {}\n", set()),
     ],
 )

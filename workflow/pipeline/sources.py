@@ -17,6 +17,11 @@ from typing import Any
 CPP = Path(__file__).resolve().parents[2] / "cpp"
 FLAGS = "flags.cmake"
 
+# What only sampled programs use: collision rules, chains, their dynamics and parameters.
+SAMPLED = re.compile(
+    "engine/|sampling/(?!momentum_bins|reservoir_parameters)|model/(collision_rule|rules|(closed|open)_chain)"
+)
+
 # Numbers with separators and literals are kept, as they may contain the begin of a comment.
 TOKEN = re.compile(
     r"""(\b\d(?:'?[\w.])*|R"([^()\\\s]{0,16})\(.*?\)\2"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*')"""
@@ -30,12 +35,9 @@ def sha256(text: str) -> str:
 
 
 def source_hash(program: str, cpp: Path = CPP) -> str:
-    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp
-    without other observables and, but for boltzmann, the solver of the kinetic equation; and of the
-    numeric flags. Raises OSError."""
-    lines = [
-        f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if owner(path) in ("", program)
-    ]
+    """Hash of all sources that can change a result of a program, without comments and empty lines, and of
+    the numeric flags. Raises OSError."""
+    lines = [f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if determines(path, program)]
     return sha256("".join(lines))
 
 
@@ -64,12 +66,13 @@ def code_hashes(cpp: Path = CPP) -> dict[str, str]:
     return {path: sha256(code(text, path)) for path, text in texts.items()}
 
 
-def owner(path: str) -> str:
-    """The program that alone depends on a source; empty for a source of all programs."""
+def determines(path: str, program: str) -> bool:
+    """Whether a source can change a result of a program: all but other observables, and either the solver
+    of the kinetic equation, or rules and dynamics, which `boltzmann` does not have."""
     first, *rest = path.split("/")
     if first == "observables":
-        return rest[0].partition(".")[0]
-    return first if first == "boltzmann" else ""
+        return rest[0].partition(".")[0] == program
+    return first != "boltzmann" if program != "boltzmann" else not SAMPLED.match(path)
 
 
 def code(text: str, path: str) -> str:
