@@ -164,19 +164,18 @@ found = [*(10 * value for value in left), -0.4]
 claim("pulse.peaks_leave", leaving, found, peak=EXACT, peak_position=EXACT)
 
 
-# The profile at the first time is A exp(-(y - 7)²/18) in cells, whose maximum in free flight attenuated by exp(-y (f -
-# 1)/N) is at y = 7 - 9 (f - 1)/N. The position grows as t^0.9.
-def gaussian(_run: Run, t: np.ndarray, cell: np.ndarray) -> np.ndarray:
-    y = abs(cell - 50) - 7
-    return np.where(t == t.min(), 100 * np.exp(-(y**2) / 18), 1)
+# The peak at the first time is A exp(-s²/18 + b s³) in cells, s = y - 7, whose maximum in free flight attenuated by
+# exp(-y (f - 1)/N) is at s = -c of (f - 1)/N = c/9 + 3 b c², c = 0.12. The position grows as t^0.9.
+LOST = 1.5 / 101
+BEND = (LOST - 0.12 / 9) / (3 * 0.12**2)
 
 
 def moving(run: Run, t: np.ndarray) -> np.ndarray:
     return 7 * (t / t.min()) ** (0.9 if run.name == "rest" else 3)
 
 
-peaks = pulse("fig09b", peak_position=moving, energy_difference=gaussian)
-attenuated = 1 + math.log(1 - 9 * 1.5 / 101 / 7) / math.log(2.5)
+peaks = pulse("fig09b", peak_position=moving, peak_quadratic=-1 / 18, peak_cubic=BEND)
+attenuated = 1 + math.log(1 - 0.12 / 7) / math.log(2.5)
 claim("pulse.ballistic", peaks, [0.9 - attenuated])
 accelerated = lambda _, t: 300 * np.exp(0.1 * np.log(t / 0.02) ** 2) * t  # noqa: E731
 steps = [1 + 0.1 * (2 * k + 1) * math.log(2) for k in range(3)]

@@ -149,8 +149,9 @@ def test_the_error_of_a_distance_is_that_of_the_bins_with_particles() -> None:
     assert largest_distance(momentum, density, error, 1e12, normalised=False) == pytest.approx(
         (0.2, 0.1), rel=1e-4
     )
-    expected = 0.2, np.hypot(0.8 * 0.1, 0.2 * 0.02)
-    assert largest_distance(momentum, density, error, 1e12, normalised=True) == pytest.approx(
+    density = np.array([0, 0.1, 0.4])
+    expected = 0.8, np.hypot(0.8 * 0.1, 0.2 * 0.02)
+    assert largest_distance(momentum, density, error, 1e-12, normalised=True) == pytest.approx(
         expected, rel=1e-4
     )
     whole = np.array([0, 0, 0.5])

@@ -61,6 +61,8 @@ def largest_distance(
     the error of the sum S there, for independent bins. Of normalised ones those below, (1 - S) of the error,
     and those above, S of it, cancel each other. Empty bins have no error."""
     width = momentum[1] - momentum[0]
+    total = float(np.sum(density) * width) if normalised else 1
+    density, error = density / total, error / total
     below, above = (erf((momentum + side * width / 2) / np.sqrt(2 * temperature)) for side in (-1, 1))
     distance = np.abs(np.cumsum(density * width - 0.5 * (above - below)))
     largest = int(distance.argmax())
