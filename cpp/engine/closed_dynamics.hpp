@@ -47,7 +47,7 @@ class ClosedDynamics {
 
   ClosedChain chain_;
   Rules rule_;
-  std::vector<double> scatterers_;  // w, see Elastic
+  std::vector<double> scatterers_;  // w, see ScattererMass
   FreeFlight free_flight_;
   EventQueue queue_;
   EventCounter events_;

@@ -58,7 +58,7 @@ class OpenDynamics {
   StreamKey key_;
   RandomStream passes_;
   std::array<Injector, 2> injectors_;  // by End
-  std::vector<double> scatterers_;     // w, see Elastic
+  std::vector<double> scatterers_;     // w, see ScattererMass
   std::vector<std::uint64_t> drawn_;   // collisions with random numbers so far, by cell
   std::vector<Particle> newcomers_;    // of the start, until the first call of simulate()
   IdPool ids_;

@@ -7,11 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "model/scatterer_mass.hpp"
 #include "numerics/random.hpp"
 
 namespace lorentz {
-
-class Elastic;
 
 /// A number on which a rule depends besides sigma: the option --RULE-NAME of every program with --rule.
 struct RuleOption {
@@ -74,11 +73,12 @@ Rule rule_from(double sigma, std::span<const double> options) {
   }(std::make_index_sequence<Rule::properties.options.size()>());
 }
 
-/// A rule derives from Elastic, which has the masses and the scale of w, and is listed in model/rules.hpp. It
+/// A rule derives from ScattererMass, and is listed in model/rules.hpp. It
 /// is constructed from sigma and the values of its options.
 template <class Rule>
 concept CollisionRule =
-    std::derived_from<Rule, Elastic> && std::same_as<decltype(Rule::properties), const RuleProperties> &&
+    std::derived_from<Rule, ScattererMass> &&
+    std::same_as<decltype(Rule::properties), const RuleProperties> &&
     requires(double sigma, std::span<const double> options) { rule_from<Rule>(sigma, options); } &&
     (DeterministicRule<Rule> || DrawingRule<Rule>) &&
     NeighbourRule<Rule> == Rule::properties.changes_neighbour;

@@ -27,11 +27,11 @@ constexpr std::array<RuleProperties, sizeof...(Each)> properties(std::type_ident
 
 inline constexpr auto all = properties(std::type_identity<Rules>());
 
-/// A rule without properties of its own would have those of Elastic.
+/// A rule without properties of its own would have those of the rule that it derives from.
 consteval bool names_differ() {
-  for (const RuleProperties& one : all)
+  for (const RuleProperties& rule : all)
     for (const RuleProperties& other : all)
-      if (&one != &other && one.name == other.name) return false;
+      if (&rule != &other && rule.name == other.name) return false;
   return true;
 }
 static_assert(names_differ(), "two rules have one name: define `properties` in each");
@@ -40,8 +40,8 @@ static_assert(names_differ(), "two rules have one name: define `properties` in e
 
 /// Throws std::invalid_argument if no rule has this name.
 inline const RuleProperties& rule_properties(std::string_view name) {
-  for (const RuleProperties& each : rules::all)
-    if (each.name == name) return each;
+  for (const RuleProperties& rule : rules::all)
+    if (rule.name == name) return rule;
   throw std::invalid_argument("no collision rule is named " + std::string(name));
 }
 
@@ -66,9 +66,9 @@ inline bool draws_direction(std::string_view name) {
   }(std::type_identity<Rules>(), name);
 }
 
-/// The part with the masses and the scale of w, which every rule has.
-inline const Elastic& masses(const Rules& rule) {
-  return std::visit([](const auto& each) -> const Elastic& { return each; }, rule);
+/// The mass of the scatterers.
+inline const ScattererMass& masses(const Rules& rule) {
+  return std::visit([](const ScattererMass& mass) -> const ScattererMass& { return mass; }, rule);
 }
 
 }  // namespace lorentz

@@ -220,7 +220,7 @@ void StudyProgram::measure(std::uint64_t end) {
     lock.unlock();
     TallySums sums(study_.tallies);
     const std::uint64_t events = study_.sample({StreamKey(seed_, index), heartbeat}, sums);
-    sums.require_filled(study_.tallies);
+    sums.require_filled();
     lock.lock();
     finished_.emplace(index, FinishedReplica{sums.values(), events});
     in_progress_ -= std::exchange(completed, 0);
@@ -296,6 +296,8 @@ void StudyProgram::report(const RunResult& result, std::uint64_t replicas) {
   if (result.convergence == Convergence::not_reached) line += ", not reached";
   if (std::isnan(mean))
     line += ", not defined by these replicas";
+  else if (std::isnan(error))
+    line += ", without a standard error, as it is not defined without one of the replicas; choose more";
   else if (target_error_ > 0 && error == 0)
     line += ": all replicas agree, so that the error is not known";
   if (needed_ > replicas) line += fmt::format("; about {} are needed", needed_);

@@ -66,16 +66,24 @@ Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain)
 
 std::vector<std::string> remarks_on_stationarity(const Results& results) {
   const double stationary = quantity_named(results, "stationary").mean.front();
+  const Quantity& gain = quantity_named(results, "particle_gain");
   if (std::isnan(stationary))
     return {
         "not tested whether stationary: too few replicas or injections; choose more --replicas, or a longer "
         "--observation-time"};
-  if (stationary == 1) return {};  // 0, 1 or NaN
+  if (stationary == 1) {  // 0, 1 or NaN
+    const double share = gain.mean.front();
+    if (std::abs(share) < 3 * gain.standard_error.front()) return {};
+    return {fmt::format(
+        "stationary within the sensitivity of the test: slow particles still accumulate, {:+.2g} of those "
+        "injected, so that J_n may be off by half of this part of --nu-left plus --nu-right; choose a longer "
+        "--relaxation-time",
+        share)};
+  }
   return {fmt::format(
       "not stationary: the p-value of no change is {:.1g}, and the number of particles changes by "
       "{:+.2g} of those injected; choose a longer --relaxation-time",
-      quantity_named(results, "stationarity_p_value").mean.front(),
-      quantity_named(results, "particle_gain").mean.front())};
+      quantity_named(results, "stationarity_p_value").mean.front(), gain.mean.front())};
 }
 
 }  // namespace lorentz

@@ -48,13 +48,14 @@ const Description& TallySchema::description(Tally tally) const {
 }
 
 void TallySums::set(Tally tally, std::span<const double> values) {
-  if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
+  if (values.size() != tally.size)
+    throw std::out_of_range("values of another size than the tally " + schema_.description(tally).name);
   std::ranges::copy(values, (*this)[tally].begin());
 }
 
-void TallySums::require_filled(const TallySchema& schema) const {
+void TallySums::require_filled() const {
   auto begin = accessed_.begin();
-  for (const Description& each : schema.tallies()) {
+  for (const Description& each : schema_.tallies()) {
     const auto end = begin + static_cast<std::ptrdiff_t>(each.size());
     if (begin != end && std::find(begin, end, true) == end)
       throw std::logic_error("the tally " + each.name + " is declared and never filled");

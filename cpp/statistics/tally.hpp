@@ -75,7 +75,8 @@ class TallySchema {
 /// Values of the tallies of one replica, initially 0.
 class TallySums {
  public:
-  explicit TallySums(const TallySchema& schema) : values_(schema.width()), accessed_(schema.width()) {}
+  explicit TallySums(const TallySchema& schema)
+      : schema_(schema), values_(schema.width()), accessed_(schema.width()) {}
 
   double& operator[](ScalarTally tally) { return (*this)[Tally(tally)][0]; }
   std::span<double> operator[](Tally tally) {
@@ -83,15 +84,16 @@ class TallySums {
     return std::span(values_).subspan(tally.first, tally.size);
   }
 
-  /// Sets an array. Throws std::out_of_range unless the sizes agree.
+  /// Sets an array. Throws std::out_of_range, which names the tally, unless the sizes agree.
   void set(Tally tally, std::span<const double> values);
 
   /// Throws std::logic_error, which names the tally, if one has never been accessed: its mean would be 0.
-  void require_filled(const TallySchema& schema) const;
+  void require_filled() const;
 
   const std::vector<double>& values() const { return values_; }
 
  private:
+  const TallySchema& schema_;
   std::vector<double> values_;
   std::vector<bool> accessed_;  // first columns of tallies and of their rows
 };

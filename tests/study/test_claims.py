@@ -143,9 +143,19 @@ def test_errors_of_ratios_and_sums() -> None:
 
 def test_the_error_of_a_distance_is_that_of_the_bins_with_particles() -> None:
     """Bins of width 2, of which the Gaussian of a high temperature fills none: the sum is 0.2 from the second
-    on. The first is empty, and has no error."""
+    on. The first is empty, and has no error. Of a normalised histogram the sum has 0.8 of the error of the
+    second bin and 0.2 of that of the third, and none at the end. Detected mistake: that of all bins below."""
     momentum, density, error = np.array([[-1, 1, 3], [0, 0.1, 0], [np.nan, 0.05, 0.01]])
-    assert largest_distance(momentum, density, error, 1e12) == pytest.approx((0.2, 0.1), rel=1e-4)
+    assert largest_distance(momentum, density, error, 1e12, normalised=False) == pytest.approx(
+        (0.2, 0.1), rel=1e-4
+    )
+    density = np.array([0, 0.1, 0.4])
+    expected = 0.8, np.hypot(0.8 * 0.1, 0.2 * 0.02)
+    assert largest_distance(momentum, density, error, 1e-12, normalised=True) == pytest.approx(
+        expected, rel=1e-4
+    )
+    whole = np.array([0, 0, 0.5])
+    assert largest_distance(momentum, whole, error, 1e12, normalised=True)[1] == pytest.approx(0, abs=1e-12)
 
 
 def test_fitted_control_variates_take_degrees_of_freedom() -> None:

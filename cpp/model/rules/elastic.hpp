@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
-#include <vector>
 
 #include "model/collision_rule.hpp"
 
@@ -32,7 +31,7 @@ constexpr bool elastic_conducts(double sigma, std::span<const double> /*options*
 /// with the whole number, which is exact, is added last. At sigma = 0 and +-1 the collision is exact. Close
 /// to +-1 the rounding error of a product with sigma itself would be nearly the same in thousands of
 /// collisions of a scatterer, as its velocity hardly changes.
-class Elastic {
+class Elastic : public ScattererMass {
  public:
   static constexpr RuleProperties properties{.name = "elastic",
                                              .description = "energy and momentum are conserved",
@@ -43,12 +42,11 @@ class Elastic {
   explicit Elastic(double sigma) : sigma_(stored(sigma)) {
     if (!(sigma >= -1 && sigma <= 1)) throw std::invalid_argument("sigma must lie in [-1, 1]");
     if (std::abs(sigma) == 1) return;  // c = 0
-    const double mass = (1 + sigma_) / (1 - sigma_);
+    const double mass = scatterer_mass(sigma_), root_mass = std::sqrt(mass);
     const double magnitude = std::ldexp(1.0, std::ilogb(mass) / 2);
     particle_from_scatterer_ = (1 + sigma_) / magnitude;
     scatterer_from_particle_ = (1 - sigma_) * magnitude;
-    root_mass_ = std::sqrt(mass);
-    scatterer_scale_ = root_mass_ / magnitude;
+    set_mass(root_mass, root_mass / magnitude);  // the scale lies in [1/2, 2]
   }
 
   /// One collision, in place: u is the velocity of the particle, w the scaled velocity of the scatterer.
@@ -60,32 +58,6 @@ class Elastic {
 
   /// sigma as it is stored.
   double sigma() const { return sigma_; }
-
-  /// The ratio U / w, in [1/2, 2].
-  double scatterer_scale() const { return scatterer_scale_; }
-
-  /// Converts U of the scatterers to w.
-  std::vector<double> scaled(std::vector<double> scatterers) const {
-    for (double& scatterer : scatterers) scatterer /= scatterer_scale_;
-    return scatterers;
-  }
-
-  /// Converts w of the scatterers to U.
-  std::vector<double> unscaled(std::vector<double> scatterers) const {
-    for (double& scatterer : scatterers) scatterer *= scatterer_scale_;
-    return scatterers;
-  }
-
-  /// P / U = sqrt(M). At sigma = 1, where M is infinite, it is 0, so that the scatterers' momenta are left
-  /// out of every sum.
-  double root_mass() const { return root_mass_; }
-
- protected:
-  /// For rules with another unit of w.
-  void set_scale(double root_mass, double scatterer_scale) {
-    root_mass_ = root_mass;
-    scatterer_scale_ = scatterer_scale;
-  }
 
  private:
   /// sigma, changed by at most 1e-11 sigma (1-|sigma|) + 2^-53, which is far below every other error.
@@ -107,8 +79,6 @@ class Elastic {
   double rest_ = whole_ - sigma_;
   double particle_from_scatterer_ = 0;
   double scatterer_from_particle_ = 0;
-  double scatterer_scale_ = 1;
-  double root_mass_ = 0;
 };
 
 }  // namespace lorentz

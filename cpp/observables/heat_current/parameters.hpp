@@ -27,8 +27,6 @@ struct HeatCurrentParameters : ClosedParameters {
     observation_time = 256;
   }
 
-  double scatterer_mass() const { return (1 + ring.scattering.sigma) / (1 - ring.scattering.sigma); }
-
   /// Number of intervals of a record, each as long as the first of `times`; lags(times) are `lags`.
   std::size_t intervals(const std::vector<std::size_t>& lags) const {
     const auto whole = static_cast<std::size_t>(observation_time / times.front() * (1 + 1e-9));
@@ -75,7 +73,7 @@ struct Sound {
 
   static Sound of(const HeatCurrentParameters& parameters) {
     const double z = parameters.fugacity.value(), spacing = parameters.ring.cell_length;
-    const double a = z + 0.5 / spacing, rho = 2 * z + parameters.scatterer_mass() / spacing;
+    const double a = z + 0.5 / spacing, rho = 2 * z + scatterer_mass(parameters.ring.scattering.sigma) / spacing;
     const double T = parameters.temperature;
     return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
   }

@@ -43,8 +43,10 @@ def equilibrium(data: Results) -> list[Estimate]:
             for values in (crossing.mean, crossing.error)
         )
         both = ends.mean.mean(axis=0), np.hypot(*ends.error) / 2
-        of_particles = largest_distance(momentum, density, error, EQUAL)
-        of_scatterers = largest_distance(ends.axes["scaled_momentum"], both[0], both[1], EQUAL)
+        of_particles = largest_distance(momentum, density, error, EQUAL, normalised=False)
+        of_scatterers = largest_distance(
+            ends.axes["scaled_momentum"], both[0], both[1], EQUAL, normalised=True
+        )
         numbers += [
             Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, crossing.dof.min()),
             Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, ends.dof.min()),
@@ -53,15 +55,20 @@ def equilibrium(data: Results) -> list[Estimate]:
 
 
 def largest_distance(
-    momentum: np.ndarray, density: np.ndarray, error: np.ndarray, temperature: float
+    momentum: np.ndarray, density: np.ndarray, error: np.ndarray, temperature: float, *, normalised: bool
 ) -> tuple[float, float]:
     """Largest difference of the cumulative sums of a histogram and of the Gaussian of a temperature, with
-    the error of the sum there. Empty bins have no error."""
+    the error of the sum S there, for independent bins. Of normalised ones those below, (1 - S) of the error,
+    and those above, S of it, cancel each other. Empty bins have no error."""
     width = momentum[1] - momentum[0]
+    total = float(np.sum(density) * width) if normalised else 1
+    density, error = density / total, error / total
     below, above = (erf((momentum + side * width / 2) / np.sqrt(2 * temperature)) for side in (-1, 1))
     distance = np.abs(np.cumsum(density * width - 0.5 * (above - below)))
     largest = int(distance.argmax())
-    return float(distance[largest]), float(np.sqrt(np.nansum(error[: largest + 1] ** 2)) * width)
+    below_share = float(np.sum(density[: largest + 1]) * width) if normalised else 0
+    weights = np.where(np.arange(len(error)) <= largest, 1 - below_share, below_share)
+    return float(distance[largest]), float(np.sqrt(np.nansum((weights * error) ** 2)) * width)
 
 
 def jump_and_halves(data: Results) -> list[Estimate]:

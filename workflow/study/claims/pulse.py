@@ -9,7 +9,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from workflow.lib.load import Result
 from workflow.physics.pulse import resolved
@@ -83,23 +82,16 @@ def _way(result: Result, a: int, b: int, label: str) -> Estimate:
 
 def free_flight(result: Result, k: int, factor: float) -> float:
     """Position of the peak, in cells, `factor` times later than at time k: the maximum of E(y) exp(-y (factor - 1)
-    gamma/N) at y = x/factor, with the energy E(y) at time k and mean free path N/gamma. E is exp(cubic) above half of
-    its height, as in the program's fit. Raises MissingError if these are fewer than five cells."""
-    profile = result["energy_difference"].mean[k]
-    centre = len(profile) // 2
-    right, left = profile[centre:], profile[centre::-1]
-    folded = (right[: len(left)] + left) / 2
-    peak = round(float(result["peak_position"].mean[k]))
-    above = folded > folded[peak] / 2
-    low, high = peak - int(np.argmin(above[peak::-1])) + 1, peak + int(np.argmin(above[peak:]))
-    if high - low < 5:
-        raise MissingError("the peak has too few cells above half of its height")
-    cubic = np.polynomial.Polynomial.fit(np.arange(low, high), np.log(folded[low:high]), 3)
-    lost = (factor - 1) * float(result.parameters["gamma"]) / int(result.parameters["cells"])
-    highest = minimize_scalar(
-        lambda y: lost * y - cubic(y), bounds=(low, high - 1), method="bounded", options={"xatol": 1e-9}
+    gamma/N) at y = x/factor, with the energy E(y) at time k and mean free path N/gamma. E is the program's fit,
+    exp(a s² + b s³) at s from its peak. Raises MissingError if it has no such maximum."""
+    position, a, b = (
+        float(result[name].mean[k]) for name in ("peak_position", "peak_quadratic", "peak_cubic")
     )
-    return factor * float(highest.x)
+    lost = (factor - 1) * float(result.parameters["gamma"]) / int(result.parameters["cells"])
+    discriminant = a**2 + 3 * b * lost
+    if not discriminant > 0:
+        raise MissingError("the fit of the peak has no maximum after the attenuation")
+    return factor * (position + lost / (a - math.sqrt(discriminant)))
 
 
 def ballistic_later(data: Results) -> list[Estimate]:
