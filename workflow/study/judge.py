@@ -1,6 +1,6 @@
-"""Judges every row of workflow/study/claims.csv by results.
+"""Judges every statement of workflow/study/claims.csv by results.
 
-A row is one statement of the paper in one meaning: literal as printed, or intended if that is another one.
+A row is a statement of the paper as printed, or as meant if that is another one.
 """
 
 from collections.abc import Mapping, Sequence
@@ -26,11 +26,12 @@ COLUMNS = [
     "panel",
     "function",
     "band",
+    "nearly",
     "criterion",
     "caveat",
 ]
 MOST_LETTERS = 60  # of a statement in the picture of the verdicts: `short`, or `statement` without one
-KINDS = ("literal", "intended")
+PRINTED, MEANT = KINDS = ("as printed", "as meant")
 MODULES = {
     module.__name__.rpartition(".")[2]: module
     for module in (closed, filling, fluxes, growth, profiles, pulse)
@@ -39,7 +40,7 @@ MODULES = {
 
 @dataclass(frozen=True)
 class Judgement:
-    """A row of the table with its verdict. missing: why there are no numbers, else empty."""
+    """A statement with its verdict. missing: why there are no numbers, else empty."""
 
     row: Mapping[str, str]
     verdict: Verdict
@@ -53,20 +54,25 @@ def function_of(row: Mapping[str, str]) -> Claim:
     return function
 
 
+def bands(row: Mapping[str, str]) -> tuple[Band, Band | None]:
+    """The acceptance band, and the wider one of a nearly reproduced statement. Raises ValueError."""
+    return Band.parse(row["band"]), Band.parse(row["nearly"]) if row["nearly"] else None
+
+
 def label(row: Mapping[str, str]) -> str:
     """The statement in at most MOST_LETTERS letters."""
     return row["short"] or row["statement"]
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    """Rows of the table of claims. Raises FormatError, OSError."""
+    """Rows of the table of statements. Raises FormatError, OSError."""
     where = "the table"
     try:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
         for row in rows:
             where = f"row {row['numbers']}, {row['kind']}"
-            Band.parse(row["band"])
+            bands(row)
             function_of(row)
             if row["kind"] not in KINDS:
                 raise ValueError(f"{row['kind']} is not a kind: write {' or '.join(KINDS)}")
@@ -86,22 +92,26 @@ def judge_all(data: Results, root: Path = ROOT) -> list[Judgement]:
 
 
 def judge(row: Mapping[str, str], data: Results, level: float) -> Judgement:
-    band = Band.parse(row["band"])
+    band, nearly = bands(row)
     try:
-        return Judgement(row, Verdict(band, tuple(function_of(row)(data)), level))
+        return Judgement(row, Verdict(band, tuple(function_of(row)(data)), level, nearly))
     except MissingError as error:
-        return Judgement(row, Verdict(band, (), level), str(error))
+        return Judgement(row, Verdict(band, (), level, nearly), str(error))
 
 
 def changed(judgements: Sequence[Judgement], factor: float) -> list[tuple[Judgement, Outcome]]:
     """Rows whose verdict is another one if every band with two edges is wider by a factor, with this
     verdict."""
-    others = [(one, replace(one.verdict, band=one.verdict.band.wider(factor)).outcome) for one in judgements]
+    others = []
+    for one in judgements:
+        band, nearly = one.verdict.band.wider(factor), one.verdict.nearly
+        verdict = replace(one.verdict, band=band, nearly=nearly.wider(factor) if nearly else None)
+        others.append((one, verdict.outcome))
     return [(one, outcome) for one, outcome in others if outcome is not one.verdict.outcome]
 
 
 def of_release(quality: str, root: Path = ROOT) -> dict[tuple[str, str], str]:
-    """Verdicts of the release by claim and kind, for other qualities; empty without a release."""
+    """Verdicts of the release by numbers and kind, for other qualities; empty without a release."""
     if not states_release(quality, root):
         return {}
     table = pd.read_csv(root / NUMBERS).drop_duplicates(["claim", "kind"])

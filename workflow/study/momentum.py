@@ -1,14 +1,14 @@
-"""Growth of heat transport with noise in the collisions that conserves momentum, and with noise that does not.
+"""Heat in rings: fig. 8's own gas, with noise in the collisions, and at a density that does not depend on N.
 
-In a fraction epsilon of the collisions the momenta of the particle, its scatterer and a neighbouring one are
-rotated, which conserves energy and momentum [eq. 60], or the momentum of the scatterer is reversed, which
-conserves energy alone. The chains are those of fig. 8. Q is the heat current of a ring, integrated over its cells
-and a time [eq. 58]; <Q²>/2t per cell is its heat conductivity at this time, in units of T².
+Q is the heat current of a ring, integrated over its cells and a time [eq. 58]; <Q²>/2t per cell is its conductivity
+at this time, in units of T². (a) Fig. 8's conductivity of heat, and the Green-Kubo value of rings of its gas at the
+time in which sound crosses the chain [eq. 61]. (b) In a fraction of the collisions the momenta of the particle, its
+scatterer and a neighbouring one are rotated, which conserves energy and momentum [eq. 60], or the momentum of the
+scatterer is reversed, which conserves energy alone.
 """
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Sequence
 from itertools import cycle
-from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -21,142 +21,113 @@ from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.study import rings
 
-TITLE = "Heat transport with and without conserved momentum"
-UNITS = dict.fromkeys(("epsilon", "zeta", "mass"), "1") | {"spread": "energy^2 length^2/time"}
+TITLE = "Conductivity of fig. 8's gas, and heat with and without conserved momentum"
+UNITS = dict.fromkeys(("epsilon", "zeta", "mass", "ratio"), "1") | {"spread": "energy^2 length^2/time"}
+UNITS |= {"green_kubo": "energy/(time temperature)"}
 
-
-class Case(NamedTuple):
-    """A collision rule, and the fraction of the collisions that it disturbs."""
-
-    rule: str
-    epsilon: float
-
-    @property
-    def label(self) -> str:
-        kind = {"rotation": "momentum conserved", "reversal": "momentum broken"}.get(self.rule, self.rule)
-        return f"{kind}, {100 * self.epsilon:g} %" if self.epsilon else "no noise"
-
-
-# Filled where momentum is conserved, open where it is not; the larger the fraction, the darker.
-LOOKS: dict[str, list[tuple[str, str, str | None]]] = {
-    "elastic": [("o", style.BLACK, None)],
-    "rotation": [("D", style.SKY, None), ("s", style.BLUE, None)],
-    "reversal": [("v", style.ORANGE, "white"), ("^", style.VERMILLION, "white"), ("<", "#7f3b08", "white")],
-}
-OTHER_RULES: list[tuple[str, str, str | None]] = [("P", style.GREEN, None), ("X", style.GREEN, None)]
+OWN = "gas-"  # begin of the names of the series of fig. 8's gas
+FIRST = 128  # cells from which the chain is compared with its gas: the ends dominate shorter ones
 LINE: style.Look = {"linestyle": "-", "linewidth": 0.6}
+# By collision rule: name, and filled symbols where momentum is conserved.
+NOISE: dict[str, tuple[str, style.Look]] = {
+    "elastic": ("no noise", style.points("o", style.BLACK)),
+    "rotation": ("momentum conserved", style.points("s", style.BLUE)),
+    "reversal": ("momentum broken", style.points("^", style.VERMILLION, "white")),
+}
+GASES = cycle([("o", style.BLACK), *style.LOOKS[1:]])
 
 
-def looks(cases: Iterable[Case]) -> dict[Case, style.Look]:
-    """Looks of all cases, in the order of the legend."""
-    found: dict[Case, style.Look] = {}
-    for rule in dict.fromkeys([*LOOKS, *sorted({case.rule for case in cases})]):
-        of_rule = sorted({case for case in cases if case.rule == rule})
-        own = cycle(LOOKS.get(rule, OTHER_RULES))
-        found |= {case: style.points(*look) | LINE for case, look in zip(of_rule, own, strict=False)}
-    return found
-
-
-def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per chain, sorted by N."""
-    rows: list[dict[str, Any]] = []
-    for result in results:
-        row: dict[str, Any] = {"rule": result.parameters["rule"], "epsilon": rings.epsilon(result)}
-        row |= {"cells": int(result.parameters["cells"]), "usable": result.usable}
-        rows.append(row | result.columns("kappa"))
-    return pd.DataFrame(rows).sort_values(["rule", "epsilon", "cells"], ignore_index=True)
-
-
-def of_case(table: pd.DataFrame, case: Case) -> pd.DataFrame:
-    return table[(table.rule == case.rule) & (table.epsilon == case.epsilon)]
-
-
-def growth(chains: pd.DataFrame, case: Case, sizes: Collection[int]) -> str:
-    """kappa of a case at the largest of the sizes, over that at the smallest."""
-    rows = of_case(chains, case).set_index("cells").reindex([min(sizes), max(sizes)])
-    (first, one), (last, other) = rows[["kappa", "kappa_error"]].to_numpy()
-    return format_with_error(last / first, last / first * np.hypot(one / first, other / last))
-
-
-def caption(chains: pd.DataFrame) -> str:
-    sizes = common_sizes(chains)
-    epsilon = chains[chains.rule == "reversal"].epsilon.min()
-    elastic, broken = (
-        growth(chains, case, sizes) for case in (Case("elastic", 0), Case("reversal", epsilon))
+def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
+    """One row per N: conductivity of heat of the chain, Green-Kubo value of its gas, and the ratio of both."""
+    table = pd.DataFrame(
+        {"cells": int(chain.parameters["cells"]), "usable": chain.usable} | chain.columns("kappa_heat")
+        for chain in chains
     )
-    return f"""
-        Noise in a fraction of the collisions conserves energy and momentum (filled), or energy alone (open). (a) In fig. 8's chain, whose gas
-        gets thinner, κ grows from N = {min(sizes)} to {max(sizes)} by {elastic} without noise, by {broken} if {100 * epsilon:g} % break momentum.
-        (b) Heat of a ring: only broken momentum stops its growth."""
+    ends = [chain[f"temperature_{end}"].mean for chain in chains for end in ("first", "last")]
+    columns = ["cells", "green_kubo", "green_kubo_error"]
+    values = pd.DataFrame((rings.green_kubo(ring, float(np.mean(ends))) for ring in own), columns=columns)
+    table = table.merge(values, "outer", "cells").sort_values("cells", ignore_index=True)
+    table["ratio"] = table.green_kubo / table.kappa_heat
+    relative = table.kappa_heat_error / table.kappa_heat, table.green_kubo_error / table.green_kubo
+    return table.assign(ratio_error=table.ratio * np.hypot(*relative), usable=table.usable.eq(other=True))
 
 
-def common_sizes(chains: pd.DataFrame) -> set[int]:
-    """Sizes of all cases."""
-    return set.intersection(*(set(part.cells) for _, part in chains.groupby(["rule", "epsilon"])))
+def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
+    """Plots both conductivities, and the logarithm through those of the chain from FIRST on."""
+    heat, gas = style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white", zorder=3)
+    axes.errorbar(sizes.cells, sizes.kappa_heat, sizes.kappa_heat_error, label="chain, heat alone", **heat)
+    axes.errorbar(
+        sizes.cells, sizes.green_kubo, sizes.green_kubo_error, label="its gas in equilibrium", **gas
+    )
+    style.cross_out(axes, sizes.cells, sizes.kappa_heat, ~sizes.usable & sizes.kappa_heat.notna())
+    long = sizes[sizes.usable & (sizes.cells >= FIRST)]
+    if len(long) > 2:
+        line = np.polyfit(np.log2(long.cells), long.kappa_heat, 1, w=1 / long.kappa_heat_error)
+        axes.plot(long.cells, np.polyval(line, np.log2(long.cells)), label=r"$a + b\,\ln N$", **style.GUIDE)
+    style.against_size(axes, sizes.cells)
+    axes.set_ylabel(rf"$\kappa$ ({style.UNIT_SYSTEM})")
+    axes.legend(loc="upper left")
 
 
-def draw_chains(axes: Axes, chains: pd.DataFrame, look: dict[Case, style.Look]) -> None:
-    for case, points in look.items():
-        part = of_case(chains, case)
-        axes.errorbar(part.cells, part.kappa, part.kappa_error, label=case.label, **points)
-    style.cross_out(axes, chains.cells, chains.kappa, ~chains.usable)
-    style.against_size(axes, chains.cells)
-    axes.set(yscale="log", ylabel=r"$\kappa$")
-    style.label_within_decades(axes.yaxis)
-
-
-def draw_rings(axes: Axes, control: pd.DataFrame, look: dict[Case, style.Look]) -> None:
-    """Plots the conductivity <Q²>/2t of every case."""
-    for case, points in look.items():
-        part = of_case(control, case)
-        axes.errorbar(part.time, part.spread, part.spread_error, label=case.label, **points)
+def draw_noise(axes: Axes, control: pd.DataFrame) -> None:
+    """Plots the conductivity <Q²>/2t by rule and fraction."""
+    for (rule, epsilon), part in control.groupby(["rule", "epsilon"]):
+        name, look = NOISE.get(rule, (rule, style.points("P", style.GREEN)))
+        label = f"{name}, {100 * epsilon:g} %" if epsilon else name
+        axes.errorbar(part.time, part.spread, part.spread_error, label=label, **look | LINE)
     axes.set(xscale="log", yscale="log", xlabel="time $t$", ylabel=r"$\langle Q^2\rangle/2tN$")
     style.label_within_decades(axes.yaxis)
+    axes.legend(loc="lower right")
 
 
 def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
     """Plots β - 1 of every gas."""
-    ours = cycle([("o", style.BLACK), *style.LOOKS[1:]])
-    for (_, gas), (marker, color) in zip(elastic.groupby(rings.STATE, sort=False), ours, strict=False):
+    for (_, gas), look in zip(elastic.groupby(rings.STATE), GASES, strict=False):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
-        look = style.points(marker, color) | LINE
         label = rf"$\zeta = {zeta}$, $M = {mass}$"
-        axes.errorbar(gas.middle, gas.local_exponent - 1, gas.local_exponent_error, label=label, **look)
+        exponent, error = gas.local_exponent - 1, gas.local_exponent_error
+        axes.errorbar(gas.middle, exponent, error, label=label, **style.points(*look) | LINE)
     style.guide_at(axes, 0, "0")
     style.guide_at(axes, 1 / 3, "1/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$")
     axes.legend(loc="upper right")
 
 
-SERIES = "light light-long light-longest dense-longest dilute-longest sparse-longest rotation reversal "
-SERIES += "chain-rotation chain-reversal deterministic deterministic-large"
+def caption(sizes: pd.DataFrame) -> str:
+    known = sizes[sizes.usable].dropna(subset="ratio_error")
+    known = known[known.cells >= min(FIRST, known.cells.max())]
+    ratios = " and ".join(
+        f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}"
+        for row in known.drop_duplicates("cells").iloc[sorted({0, len(known) - 1})].itertuples()
+    )
+    return f"""
+        (a) Conductivity of heat in fig. 8, and the Green–Kubo value of rings of its gas, ζ = 16/N, at the time in
+        which sound crosses the chain, without a free parameter; the latter over the former is {ratios}. (b) Noise
+        that conserves momentum or breaks it. (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1."""
+
+
+SERIES = " ".join(f"{OWN}{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))
+SERIES += " light dense sparse thin thin-long light-longest dense-longest sparse-longest thin-longest"
+SERIES += " light-rotation light-reversal thin-rotation thin-reversal deterministic deterministic-large"
 
 
 @plots(SERIES, varying=" ".join(PHYSICS))
 def draw(results: Sequence[Result]) -> Parts:
     of_rings = [result for result in results if result.provenance["program"] == "heat_current"]
-    chains = tabulate([result for result in results if result not in of_rings])
-    disturbed = chains[chains.rule != "elastic"].cells
-    chains = chains[chains.cells.between(disturbed.min(), disturbed.max())]
-    table = rings.tabulate(of_rings)
-    table["spread"] = table.heat_variance / (2 * table.time)
-    table["spread_error"] = table.heat_variance_error / (2 * table.time)
-    broken = table[table.rule == "reversal"].iloc[0]
+    own = [result for result in of_rings if result.series.startswith(OWN)]
+    sizes = compare([result for result in results if result not in of_rings], own)
+    table = rings.tabulate([result for result in of_rings if result not in own])
+    for column in ("spread", "spread_error"):
+        table[column] = table[column.replace("spread", "heat_variance")] / (2 * table.time)
+    broken = table[table.rule == "reversal"].iloc[-1]  # of the largest σ
     control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
-    cases = [Case(*pair) for part in (chains, control) for pair in zip(part.rule, part.epsilon, strict=True)]
-    look = looks(cases)
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
-    draw_chains(left, chains, look)
-    draw_rings(middle, control, look)
-    elastic = table[table.rule == "elastic"]
-    ours = elastic.index.isin(control.index)
-    draw_gases(right, pd.concat([elastic[ours], elastic[~ours]]))
+    figure, axes = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
+    draw_own_gas(axes[0], sizes)
+    draw_noise(axes[1], control)
+    draw_gases(axes[2], table[table.rule == "elastic"])
     zeta, mass = rings.texts(broken.zeta, broken.mass)
-    gas = rf"rings, $\zeta = {zeta}$, $M = {mass}$"
-    for axes, text in zip(
-        (left, middle, right), ("chains of fig. 8", gas, "rings without noise"), strict=True
-    ):
-        axes.set_title(text, size=style.label_size())
-    figure.legend(*middle.get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    style.letter(left, middle, right)
-    return figure, pd.concat([chains, table]), caption(chains)
+    titles = "fig. 8 and its own gas", rf"noise, $\zeta = {zeta}$, $M = {mass}$", "gases of one density"
+    for panel, text in zip(axes, titles, strict=True):
+        panel.set_title(text, size=style.label_size())
+    style.letter(*axes)
+    return figure, pd.concat([sizes, table]), caption(sizes)

@@ -23,15 +23,17 @@ from workflow.render.files import format_os_error, write_atomically
 from workflow.render.record import NUMBERS, identity_line, read_record
 from workflow.render.save import commit, write_product
 from workflow.study import typeset
-from workflow.study.judge import Judgement, changed, judge_all, label, of_release
+from workflow.study.judge import PRINTED, Judgement, changed, judge_all, label, of_release
 from workflow.study.results import Results
 from workflow.study.verdict import Outcome
 
 GALLERY = "docs/gallery"
-SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
-MOST_NUMBERS = 12  # numbers of a claim in the report; of more, only the one that is closest to the band's edge or farthest outside
+SIGNS = dict(zip(Outcome, "✓≈✗?", strict=True))
+MOST_NUMBERS = (
+    12  # of a statement in the report; of more, only the one closest to the band's edge or farthest outside
+)
 INCH = 96  # pixels, as in CSS
-NARROW, MEDIUM = 4, 7  # inches: widest pictures of which two share a row, or which has its caption beside it
+NARROW = 4  # inches: width of pictures that share a row
 
 
 def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release: bool) -> bytes:
@@ -55,10 +57,10 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
     page = environment.get_template("gallery.md.j2" if release else "report.html.j2").render(
         quality=quality.name,
         effort=quality.arguments,
-        counts={outcome.value: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
+        counts={outcome.name: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
         rows=rows,
         figures=figures,
-        claims={row["name"]: row for row in rows},
+        named={row["name"]: row for row in rows},
         panels=[context(panel, root, release=release) for panel in plan.reported],
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
@@ -73,7 +75,7 @@ def context(panel: Panel, root: Path, *, release: bool) -> dict[str, Any]:
     return record | {
         "name": panel.name,
         "study": panel.study,
-        "size": "narrow" if width <= NARROW else "medium" if width <= MEDIUM else "wide",
+        "size": "narrow" if width <= NARROW else "wide",
         "width": round(width * INCH),
         "picture": base64.b64encode(content).decode(),
         "runs": [
@@ -95,23 +97,27 @@ def inches(picture: bytes) -> float:
 
 
 def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[str, Any]:
-    """A row of the table of claims with its verdict, for the template. least, most: its smallest and
-    largest number; found: verdicts of the release, shown where this one is undecided."""
+    """A statement with its verdict, for the template. least, most: its smallest and largest number; found: verdicts of
+    the release, one of which is `standing` where this one is undecided."""
     row, verdict = judgement.row, judgement.verdict
     first, *others = row["numbers"].lower().split()
-    literal = row["kind"] == "literal"
-    anchor = first if literal else f"{first}-intended"
+    printed = row["kind"] == PRINTED
+    anchor = first if printed else f"{first}-{row['kind'].replace(' ', '-')}"
+    release = found.get((row["numbers"], row["kind"])) if verdict.outcome is Outcome.UNDECIDED else None
     numbers = sorted(verdict.numbers, key=lambda number: number.value)
     listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.decisive]
     return dict(row) | {
         "anchor": anchor,
-        "ids": [anchor, *others] if literal else [anchor],
-        "name": row["numbers"] if literal else f"{row['numbers']} intended",
+        "ids": [anchor, *others] if printed else [anchor],
+        "name": row["numbers"] if printed else f"{row['numbers']} {row['kind']}",
         "short": label(row),
         "outcome": verdict.outcome,
+        "style": verdict.outcome.name.lower(),
         "sign": SIGNS[verdict.outcome],
-        "release": found.get((row["numbers"], row["kind"])) if verdict.outcome is Outcome.UNDECIDED else None,
+        "release": release,
+        "standing": release or verdict.outcome.value,
         "band": typeset.acceptance(verdict.band),
+        "nearly": typeset.acceptance(verdict.nearly) if verdict.nearly else "",
         "value": typeset.value(verdict.decisive) if numbers else "not measured",
         "label": verdict.decisive.label if numbers else "",
         "list": [
@@ -126,7 +132,7 @@ def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[st
 
 
 def numbers_file(judgements: Sequence[Judgement]) -> bytes:
-    """CSV with one line per number of every claim. Raises TableError if it would be read as another table."""
+    """CSV with one line per number of every statement. Raises TableError if it would be read as another table."""
     lines = [
         {
             "claim": judgement.row["numbers"],

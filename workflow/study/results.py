@@ -3,16 +3,13 @@
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from workflow.lib.caption import scientific
 from workflow.lib.fit import local_exponents
 from workflow.lib.identity import panel_of
 from workflow.lib.load import Index, Result
-from workflow.study.fit import PowerLaw, fit_power
 from workflow.study.verdict import Estimate
 
 
@@ -108,32 +105,11 @@ def octave(values: Mapping[int, Estimate], a: int, b: int, label: str) -> Estima
     return Estimate(label, math.nan, math.nan)
 
 
-def power_law(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
-    """The numbers of a statement that a power law holds from size `first` on. If the sizes follow one power, its
-    exponent; if they reject it, or if an octave is unknown, the exponent of every octave: so a law that bends by
-    more than the band is contradicted, one that bends by less is not, however precise the numbers are, and a bend
-    is no error of an exponent. Raises MissingError if there are not two octaves."""
+def octaves(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
+    """The numbers of a statement that a power law holds from size `first` on: the exponents between neighbouring
+    sizes, so that a bend is contradicted if it is wider than the band, and not otherwise. Raises MissingError if there
+    are not two octaves."""
     sizes = [first, *(size for size in sorted(values) if size > first)]
     if sizes[-1] < 4 * first:
         raise MissingError(f"no stationary sizes over two octaves, from {first} on")
-    octaves = [octave(values, a, b, f"{label}, N = {a} to {b}") for a, b in pairwise(sizes)]
-    if any(math.isnan(one.value) for one in octaves):
-        return octaves
-    law, exponent = _fit({size: values[size] for size in sizes}, label)
-    if not law.rejected:
-        return [replace(exponent, label=f"{exponent.label}, one power: p = {law.p_value:.2g}")]
-    return [replace(one, label=f"{one.label}, no power: p = {scientific(law.p_value, 1)}") for one in octaves]
-
-
-def power(values: Mapping[int, Estimate], label: str) -> Estimate:
-    """Exponent of a power law fitted to independent numbers by size. Raises MissingError for fewer than two."""
-    if len(values) < 2:
-        raise MissingError("fewer than two stationary sizes")
-    return _fit(values, label)[1]
-
-
-def _fit(values: Mapping[int, Estimate], label: str) -> tuple[PowerLaw, Estimate]:
-    points = np.array([(point.value, point.error, point.dof) for point in values.values()])
-    law = fit_power([*values], *points.T)
-    label = f"{label}, N = {min(values)} to {max(values)}"
-    return law, Estimate(label, law.exponent, law.error, float(points[:, 2].min()))
+    return [octave(values, a, b, f"{label}, N = {a} to {b}") for a, b in pairwise(sizes)]

@@ -11,6 +11,7 @@ from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
 
 STATE = ["sigma", "fugacity", "temperature", "cell_length"]  # parameters of a gas
+SLOW_FLUX = 16  # z in the middle of fig. 8's chain: between 19.4 and 13.0, those of its baths
 GAS = ["rule", "epsilon", *STATE]  # columns that identify a gas
 
 
@@ -30,6 +31,15 @@ def gas(result: Result) -> tuple[str | float, ...]:
     rounding."""
     state = (float(result.parameters[name]) for name in STATE)
     return (result.parameters["rule"], epsilon(result), *state)
+
+
+def green_kubo(result: Result, temperature: float) -> tuple[int, float, float]:
+    """N of the chain of fig. 8 that holds this gas, and its conductivity of heat per cell by Green and Kubo at the
+    last time of the ring [eq. 61], with its error. temperature: of the chain, whose cells are 1/N long."""
+    heat, own = result["heat_variance"], chain(result)
+    cells = round(SLOW_FLUX / own.zeta)
+    unit = 2 * heat.axes["time"][-1] * own.cell_length * own.temperature**2.5 / (cells * temperature**0.5)
+    return cells, float(heat.mean[-1] / unit), float(heat.error[-1] / unit)
 
 
 def texts(zeta: float, mass: float) -> tuple[str, str]:

@@ -14,13 +14,21 @@ MINUS = "\N{MINUS SIGN}"
 
 
 def typeset(text: str) -> Markup:
-    """Text as HTML, with superscripts after ^, subscripts after _, and typographic minus signs."""
+    """Text as HTML."""
+    return Markup(_with_scripts(str(escape(text)).replace("&#39;", "'"), "<sup>{}</sup>", "<sub>{}</sub>"))
+
+
+def mathtext(text: str) -> str:
+    """Text for matplotlib."""
+    return _with_scripts(text, r"$^{{\mathrm{{{}}}}}$", r"$_{{\mathrm{{{}}}}}$")
+
+
+def _with_scripts(text: str, above: str, below: str) -> str:
+    """Text with superscripts after ^, subscripts after _, both in these formats, and typographic minus signs."""
     power = r"\^(?:\(([^)]*)\)|([-−]?\d+\.\d+(?:\(\d+\))?|[-−]?\w+))"
-    text = re.sub(
-        power, lambda match: f"<sup>{match[1] or match[2]}</sup>", str(escape(text)).replace("&#39;", "'")
-    )
-    text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
-    return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
+    text = re.sub(power, lambda match: above.format(match[1] or match[2]), text)
+    text = re.sub(r"_(\w+)", lambda match: below.format(match[1]), text)
+    return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text)
 
 
 def markdown(text: str) -> Markup:

@@ -1,9 +1,10 @@
-"""The verdict on a claim from its numbers and its acceptance band.
+"""The verdict on a statement from its numbers and its acceptance band.
 
 A measurement is an interval: the value, plus and minus the systematic error and as many standard errors as
-the level requires. The claim is reproduced if all its intervals are inside the band, contradicted if one is
+the level requires. The statement is reproduced if all its intervals are inside the band, contradicted if one is
 outside, and undecided otherwise, also if nothing was measured. So neither of the first two verdicts is wrong
-more often than the level.
+more often than the level. A statement may have a wider band of deviations that no eye sees in a figure: it is nearly
+reproduced if all intervals are inside that one, and contradicted only if one is outside.
 """
 
 import math
@@ -14,11 +15,12 @@ from functools import cache
 
 from scipy.special import stdtrit  # scipy.stats takes half a second to import
 
-FAMILY_LEVEL = 0.05  # probability that any of the claims gets a wrong verdict by chance
+FAMILY_LEVEL = 0.05  # probability that any statement gets a wrong verdict by chance
 
 
 class Outcome(StrEnum):
     REPRODUCED = "reproduced"
+    NEARLY = "nearly reproduced"
     CONTRADICTED = "contradicted"
     UNDECIDED = "undecided"
 
@@ -51,14 +53,14 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Band:
-    """Acceptance band of a claim."""
+    """Acceptance band of a statement."""
 
     low: float
     high: float
 
     @classmethod
     def parse(cls, text: str) -> "Band":
-        """Parses a band as written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
+        """Parses a band as written in the table of statements: `0.95 to 1.05`, `above 0`, `below -0.5`."""
         match text.split():
             case ["above", low]:
                 return cls(float(low), math.inf)
@@ -67,6 +69,12 @@ class Band:
             case [low, "to", high] if float(low) < float(high):
                 return cls(float(low), float(high))
         raise ValueError(f"'{text}' is not an acceptance band: write '0.95 to 1.05', 'above 0' or 'below 1'")
+
+    def contains(self, low: float, high: float) -> bool:
+        return self.low <= low and high <= self.high
+
+    def excludes(self, low: float, high: float) -> bool:
+        return high < self.low or low > self.high
 
     def wider(self, factor: float) -> "Band":
         """Band with the same centre; a band with one edge stays as it is."""
@@ -78,24 +86,28 @@ class Band:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Verdict on a claim that all its numbers lie in the band. level: significance level, shared equally
-    by the numbers."""
+    """Verdict on a statement that all its numbers lie in the band. level: significance level, shared equally
+    by the numbers; nearly: the wider band, if there is one."""
 
     band: Band
     numbers: tuple[Estimate, ...]
     level: float
+    nearly: Band | None = None
 
     def outcome_of(self, number: Estimate) -> Outcome:
         """Verdict on one of the numbers."""
         low, high = number.interval(self.level / len(self.numbers))
-        if self.band.low <= low and high <= self.band.high:
+        if self.band.contains(low, high):
             return Outcome.REPRODUCED
-        return Outcome.CONTRADICTED if high < self.band.low or low > self.band.high else Outcome.UNDECIDED
+        widest = self.nearly or self.band
+        if widest.contains(low, high):
+            return Outcome.NEARLY
+        return Outcome.CONTRADICTED if widest.excludes(low, high) else Outcome.UNDECIDED
 
     @property
     def outcome(self) -> Outcome:
         outcomes = {self.outcome_of(number) for number in self.numbers} or {Outcome.UNDECIDED}
-        order = (Outcome.CONTRADICTED, Outcome.UNDECIDED, Outcome.REPRODUCED)
+        order = (Outcome.CONTRADICTED, Outcome.UNDECIDED, Outcome.NEARLY, Outcome.REPRODUCED)
         return next(outcome for outcome in order if outcome in outcomes)
 
     @property
@@ -112,10 +124,10 @@ class Verdict:
         return max(self.numbers, key=reach)
 
 
-def level_of_each(claims: int) -> float:
-    """Significance level of each claim by Bonferroni: the probability of any wrong verdict is at most
+def level_of_each(statements: int) -> float:
+    """Significance level of each statement by Bonferroni: the probability of any wrong verdict is at most
     FAMILY_LEVEL."""
-    return FAMILY_LEVEL / claims
+    return FAMILY_LEVEL / statements
 
 
 @cache

@@ -1,11 +1,10 @@
-"""The verdicts on all claims: of every row of workflow/study/claims.csv the number that decides, with its interval, on
-a scale on which the acceptance band is -1 to 1.
+"""The verdicts on all statements: of every row of workflow/study/claims.csv the number that decides, with its
+interval, on a scale on which the acceptance band is -1 to 1.
 
 A band with one edge has no width: the unit is then half the interval.
 """
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -18,21 +17,24 @@ from matplotlib.lines import Line2D
 from workflow.lib import style
 from workflow.lib.figure import Parts
 from workflow.lib.load import Result
-from workflow.study.judge import Judgement, judge_all, label, of_release
+from workflow.study.judge import MEANT, PRINTED, Judgement, judge_all, label, of_release
 from workflow.study.results import Results
-from workflow.study.typeset import figure_of
+from workflow.study.typeset import figure_of, mathtext
 from workflow.study.verdict import Band, Outcome
 
 TITLE = "Verdicts on the statements of the paper"
-UNITS = dict.fromkeys(("value", "error", "systematic", "low", "high", "band_low", "band_high"), "1")
+UNITS = dict.fromkeys(("value", "error", "systematic", "low", "high"), "1")
+UNITS |= dict.fromkeys(("band_low", "band_high", "nearly_low", "nearly_high"), "1")
 UNITS |= dict.fromkeys(("position", "position_low", "position_high"), "1")
 
 EDGE = 3  # positions beyond it are arrows there
 LIMIT = 3.3  # of the frame
 ROW = 0.16  # inches
+NEARLY: style.Look = {"color": "0.965", "zorder": -2}
 NOT_MEASURED = "not measured"
 LOOKS = {
     Outcome.REPRODUCED: ("o", style.BLUE),
+    Outcome.NEARLY: ("s", style.SKY),
     Outcome.CONTRADICTED: ("X", style.VERMILLION),
     Outcome.UNDECIDED: ("D", style.BLACK),
 }
@@ -49,8 +51,8 @@ def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
 
 
 def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], str]) -> pd.DataFrame:
-    """One row per row of the claims, in the order of the figures; low, high: ends of the interval; release:
-    verdicts of the release, by claim and kind."""
+    """One row per statement, in the order of the figures; low, high: ends of the interval; release:
+    verdicts of the release, by numbers and kind."""
     rows = []
     for row, verdict in ((one.row, one.verdict) for one in judgements):
         number, band = verdict.decisive if verdict.numbers else None, verdict.band
@@ -60,18 +62,12 @@ def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], 
         origin, unit = scale_of(band, value, (ends[1] - ends[0]) / 2)
         position, low, high = ((one - origin) / unit for one in (value, *ends))
         key = row["numbers"], row["kind"]
-        columns: dict[str, Any] = {
-            "claim": key[0],
-            "kind": key[1],
-            "panel": row["panel"],
-            "statement": label(row),
-        }
-        columns |= {
-            "verdict": verdict.outcome.value,
-            "quantity": number.label or "value" if number else NOT_MEASURED,
-        }
-        columns |= {"value": value, "error": error, "systematic": systematic, "low": ends[0], "high": ends[1]}
-        columns |= {"band_low": band.low, "band_high": band.high}
+        columns: dict[str, Any] = {"claim": key[0], "kind": key[1], "panel": row["panel"]}
+        columns |= {"statement": label(row), "verdict": verdict.outcome.value}
+        columns |= {"quantity": number.label or "value" if number else NOT_MEASURED, "value": value}
+        columns |= {"error": error, "systematic": systematic, "low": ends[0], "high": ends[1]}
+        for name, edges in (("band", band), ("nearly", verdict.nearly)):
+            columns |= {f"{name}_{end}": getattr(edges, end, math.nan) for end in ("low", "high")}
         columns |= {"position": position, "position_low": low, "position_high": high}
         rows.append(columns | ({"release": release.get(key, NOT_MEASURED)} if release else {}))
     return pd.DataFrame(rows).sort_values(
@@ -81,7 +77,7 @@ def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], 
 
 def look_of(verdict: str, kind: str) -> style.Look:
     marker, color = LOOKS[Outcome(verdict)]
-    face = color if kind == "literal" else "white"
+    face = color if kind == PRINTED else "white"
     look: style.Look = {
         "marker": marker,
         "color": color,
@@ -91,12 +87,6 @@ def look_of(verdict: str, kind: str) -> style.Look:
     return look | {"linestyle": "none", "markeredgewidth": 0.8}
 
 
-def typeset(text: str) -> str:
-    """Statement for matplotlib, with superscripts after ^ and subscripts after _."""
-    text = re.sub(r"\^(?:\(([^)]*)\)|(\w+))", r"$^{\\mathrm{\1\2}}$", text)
-    return re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", text).replace(" -", " −")
-
-
 def draw_row(axes: Axes, y: int, row: pd.Series) -> None:
     """Plots the interval as far as it is in the frame, and the number, beyond EDGE as an arrow. Intervals
     that are unknown cross the frame."""
@@ -104,6 +94,9 @@ def draw_row(axes: Axes, y: int, row: pd.Series) -> None:
     open_ends = {-LIMIT: math.isinf(row.band_low), LIMIT: math.isinf(row.band_high)}
     for end in (end for end, is_open in open_ends.items() if is_open):
         axes.barh(y, end - math.copysign(1, end), left=math.copysign(1, end), height=1, **style.WINDOW)
+    if math.isfinite(row.nearly_low):
+        width = (row.nearly_high - row.nearly_low) / (row.band_high - row.band_low)
+        axes.barh(y, 2 * min(width, LIMIT), left=-min(width, LIMIT), height=1, **style.WINDOW | NEARLY)
     if "release" in row and row.release != NOT_MEASURED:
         small = look_of(row.release, row.kind) | {"markersize": 2.5, "clip_on": False}
         axes.plot([1.03], [y], transform=axes.get_yaxis_transform(), **small)
@@ -122,7 +115,7 @@ def draw_row(axes: Axes, y: int, row: pd.Series) -> None:
 
 
 def label_rows(axes: Axes, table: pd.DataFrame) -> None:
-    """Statements at the left of the frame, intended meanings in italics, with the figures of the paper."""
+    """Statements at the left of the frame, those as meant in italics, with the figures of the paper."""
     frame = axes.get_yaxis_transform()
     across: style.Look = {"transform": frame, "va": "center", "size": 7.5, "clip_on": False}
     line: style.Look = {"transform": frame, "color": "0.8", "linewidth": 0.5, "clip_on": False}
@@ -132,17 +125,20 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
         if group != former:
             axes.text(-1.58, y, group, weight="bold", **across)
             axes.plot([-1.58, 1.06], [y - 0.5] * 2, **line)
-        former, intended = group, row.kind != "literal"
-        text = f"meaning: {typeset(row.statement)}" if intended else typeset(row.statement)
-        axes.text(-1.38, y, text, style="italic" if intended else "normal", **across)
+        former, text = group, mathtext(row.statement)
+        if row.kind == PRINTED:
+            axes.text(-1.38, y, text, **across)
+        else:
+            axes.text(-1.38, y, f"{row.kind}: {text}", style="italic", **across)
 
 
 def caption(table: pd.DataFrame) -> str:
-    hold, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
-    release = " Small symbols: release." if "release" in table else ""
-    return f"""
-        Every line is a statement of the paper, literal or as intended (hollow): {hold} of {len(table)} readings hold, {fail} do not, {undecided} are open. Intervals of the
-        number that decides hold jointly at 95 % confidence. Grey: acceptance band; if it has one edge, the unit is half the interval.{release}"""
+    hold, nearly, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
+    text = f"""
+        Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold, {nearly} nearly,
+        {fail} do not, {undecided} are open. Intervals of the number that decides hold jointly at 95 % confidence.
+        Grey: acceptance band; light: nearly."""
+    return f"{text} Small symbols: release." if "release" in table else text
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -151,9 +147,9 @@ def draw(results: Sequence[Result]) -> Parts:
 
 
 def plotted(table: pd.DataFrame) -> Parts:
-    height = ROW * len(table) + 0.75
+    height = ROW * len(table) + 0.85
     figure = plt.figure(figsize=(2 * style.COLUMN, height), layout="none")
-    axes = figure.add_axes((0.602, 0.45 / height, 0.375, ROW * len(table) / height))
+    axes = figure.add_axes((0.602, 0.55 / height, 0.375, ROW * len(table) / height))
     axes.axvspan(-1, 1, **style.WINDOW)
     for y, row in table.iterrows():
         draw_row(axes, y, row)
@@ -162,12 +158,12 @@ def plotted(table: pd.DataFrame) -> Parts:
         frame = axes.get_yaxis_transform()
         axes.text(1.06, -1, "release", transform=frame, size=6.5, ha="right", va="center")
     axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
-    axes.set_xlabel("acceptance band: −1 to 1")
-    axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
-    looks = [look_of(outcome.value, "literal") | {"label": outcome.value} for outcome in Outcome]
-    handles = [Line2D([], [], **one) for one in looks]
-    handles.append(
-        Line2D([], [], **look_of("reproduced", "intended") | {"label": "hollow: intended meaning"})
+    axes.set_xlabel(
+        "acceptance band: −1 to 1; if it has one edge:\ndistance from it in half intervals", size=8
     )
-    figure.legend(handles=handles, loc="upper center", ncols=4, borderpad=0.2)
+    axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
+    looks = [look_of(outcome.value, PRINTED) | {"label": outcome.value} for outcome in Outcome]
+    looks.append(look_of(Outcome.REPRODUCED, MEANT) | {"label": f"hollow: {MEANT}"})
+    handles = [Line2D([], [], **one) for one in looks]
+    figure.legend(handles=handles, loc="upper center", ncols=5, borderpad=0.2, columnspacing=1)
     return figure, table, caption(table)
