@@ -1,4 +1,4 @@
-"""Numbers as text, and local exponents."""
+"""Numbers with errors as text, and exponents between independent points."""
 
 import numpy as np
 

@@ -1,5 +1,4 @@
-"""Numbers with their errors as text, and slopes between independent points. Points whose value is NaN are
-skipped."""
+"""Numbers with errors as text, and slopes between independent points. Points whose value is NaN are skipped."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,10 +27,10 @@ def local_slopes(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarr
     """Middle, slope and its error from every point to the next, in the order of the points; NaN for those
     without a value and for the last."""
     slopes = np.full((3, np.size(y)), np.nan)
-    from_here = np.flatnonzero(np.isfinite(np.asarray(y, dtype=float)))[:-1]
-    x, y, error, _ = with_values(x, y, error, np.nan)
+    known = np.flatnonzero(np.isfinite(np.asarray(y, dtype=float)))
+    x, y, error = (np.asarray(each, dtype=float)[known] for each in (x, y, error))
     step = np.diff(x)
-    slopes[:, from_here] = (x[1:] + x[:-1]) / 2, np.diff(y) / step, np.hypot(error[1:], error[:-1]) / step
+    slopes[:, known[:-1]] = (x[1:] + x[:-1]) / 2, np.diff(y) / step, np.hypot(error[1:], error[:-1]) / step
     return slopes[0], slopes[1], slopes[2]
 
 
@@ -42,9 +41,3 @@ def local_exponents(
     y = np.asarray(y, dtype=float)
     middle, exponent, exponent_error = local_slopes(np.log(x), np.log(y), np.asarray(error) / y)
     return np.exp(middle), exponent, exponent_error
-
-
-def with_values(x: ArrayLike, y: ArrayLike, error: ArrayLike, dof: ArrayLike) -> list[np.ndarray]:
-    """The points that have a value. A point without an error stays: it makes the error of a fit unknown."""
-    known = np.isfinite(np.asarray(y, dtype=float))
-    return [np.broadcast_to(np.asarray(each, dtype=float), known.shape)[known] for each in (x, y, error, dof)]
