@@ -34,7 +34,7 @@ NOISE: dict[str, tuple[str, style.Look]] = {
     "rotation": ("momentum conserved", style.points("s", style.BLUE)),
     "reversal": ("momentum broken", style.points("^", style.VERMILLION, "white")),
 }
-GASES = cycle([("o", style.BLACK), *style.LOOKS[1:]])
+GASES = [("o", style.BLACK), *style.LOOKS[1:]]
 
 
 def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
@@ -82,7 +82,7 @@ def draw_noise(axes: Axes, control: pd.DataFrame) -> None:
 
 def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
     """Plots β - 1 of every gas."""
-    for (_, gas), look in zip(elastic.groupby(rings.STATE), GASES, strict=False):
+    for (_, gas), look in zip(elastic.groupby(rings.STATE), cycle(GASES), strict=False):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
         label = rf"$\zeta = {zeta}$, $M = {mass}$"
         exponent, error = gas.local_exponent - 1, gas.local_exponent_error
