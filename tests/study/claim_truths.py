@@ -57,6 +57,8 @@ def named(values: Mapping[str, Any]) -> Callable[..., Any]:
 levels = 10 * np.cumprod([1, 1.1, 1.2, 1.3, 1.4])
 plateau = {"plateau": lambda run, t: levels if run.name == "unit-chain" else t}
 claim("filling.stationary_above_front", {"fig01": plateau}, [0.1, 0.2, 0.3, 0.4])
+slopes = {"log_slope": named({"unit-chain": 1.3 * levels[-1], "unit-spacing": 1})}
+claim("filling.grows_logarithmically", {"fig01": plateau | slopes}, [0.3])
 
 claim(
     "profiles.density_profiles",
@@ -110,6 +112,20 @@ by_octave = [1, 1.01, math.nan, 1.04, 1.05]
 claim("growth.linear", {"fig08": {"kappa": kappa, "stationary": still}}, by_octave)
 
 
+# The exponent over the last octave of a ring; over octaves before it is smaller. Shorter rings of a gas differ.
+last_octaves = {"light-longest": 1.31, "dense-longest": 1.32, "sparse-longest": 1.35, "thin-longest": 1.2}
+last_octaves |= {"light-rotation": 1.44, "light-reversal": 1.1, "thin-rotation": 1.3, "thin-reversal": 1.05}
+
+
+def octaves(run: Run, middle: np.ndarray) -> np.ndarray:
+    return last_octaves.get(run.name, 1.6) - 0.02 * (middle != middle.max())
+
+
+rings = {"momentum": {"local_exponent": octaves}}
+claim("growth.superdiffusive", rings, [1.31, 1.32, 1.35, 1.2])
+claim("growth.without_momentum", rings, [0.34, 0.25])
+
+
 # Damping exponents of a pulse in a ring that has not closed: octaves have their number, fits 0.01 more for each time by
 # which they begin later. Those of the other start differ.
 def rest(run: Run) -> float:
@@ -124,4 +140,7 @@ damped = {
     "peak_position": 10,
     "energy_difference": lambda _run, _t, x: (x > 1) & (x < x.max() - 1),
 }
-claim("pulse.damping", {"fig09a": damped}, [(0.64 + k, 0.02) for k in range(4)])
+claim("pulse.damping", {"fig09a": damped}, [(0.64 + 3, 0.02)])  # the last octave begins at t = 0.05
+# Octaves that begin at t = 0.008 and 0.0125, where the peak of free flight is √(2 · 50000) t cells away.
+biases = [3 / 4 / 6 / 1e5 / begin**2 / math.log(2) for begin in (0.008, 0.0125)]
+claim("pulse.damping_rare", {"fig09b": damped}, [*zip((0.64, 1.64), biases, strict=True)])

@@ -14,19 +14,18 @@ from workflow.lib.load import FormatError, Result
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
-from workflow.study.results import MissingError, Results, combination, estimate, power_law, ratio
+from workflow.study.results import MissingError, Results, combination, estimate, octaves, ratio
 from workflow.study.verdict import Band, Estimate, Outcome, Verdict, level_of_each
 
 ROWS = judge.read_claims(ROOT)
 
 
 def test_every_statement_has_a_row() -> None:
-    """Intended meanings come after the literal statement. A number is given once, also after a statement
-    is gone."""
-    numbers = [number for row in ROWS if row["kind"] == "literal" for number in row["numbers"].split()]
+    """A statement as meant comes after the one as printed. A number is given once."""
+    numbers = [number for row in ROWS if row["kind"] == "as printed" for number in row["numbers"].split()]
     assert len({*numbers}) == len(numbers)
-    literal = [row["numbers"] for row in ROWS if row["kind"] == "literal"]
-    assert {row["numbers"] for row in ROWS if row["kind"] == "intended"} <= {*literal}
+    printed = [row["numbers"] for row in ROWS if row["kind"] == "as printed"]
+    assert {row["numbers"] for row in ROWS if row["kind"] == "as meant"} <= {*printed}
     assert len({(row["numbers"], row["kind"]) for row in ROWS}) == len(ROWS)
 
 
@@ -34,8 +33,9 @@ def test_every_statement_has_a_row() -> None:
     "damage",
     [
         lambda text: text.replace("-0.1 to 0.1", "0.1 to -0.1", 1),
+        lambda text: text.replace("-1.5 to 1.5", "1.5 to -1.5", 1),
         lambda text: text.replace("front_falls", "front_rises", 1),
-        lambda text: text.replace("intended", "meant", 1),
+        lambda text: text.replace("as meant", "meant", 1),
     ],
 )
 def test_a_damaged_table_is_reported_in_one_line(tmp_path: Path, damage: Callable[[str], str]) -> None:
@@ -71,7 +71,7 @@ def test_a_power_law_needs_two_octaves() -> None:
 
 
 def verdict_of(numbers: list[Estimate], band: str) -> Outcome:
-    return Verdict(Band.parse(band), tuple(numbers), 0.05 / 42).outcome
+    return Verdict(Band.parse(band), tuple(numbers), 0.05 / 38).outcome
 
 
 @pytest.mark.parametrize(
@@ -86,15 +86,15 @@ def verdict_of(numbers: list[Estimate], band: str) -> Outcome:
         (lambda n: n ** (1 / 2), 0.003, Outcome.CONTRADICTED),
     ],
 )
-def test_which_data_decide_a_power_law(law: Callable, error: float, outcome: Outcome) -> None:
+def test_which_data_decide_a_octaves(law: Callable, error: float, outcome: Outcome) -> None:
     """Fewer sizes do not decide more: what is undecided stays so without any of them, and what is decided does not
     turn into the contrary."""
     sizes = [2**k for k in range(5, 12)]
     values = {n: Estimate("", law(n), error * law(n)) for n in sizes}
-    assert verdict_of(power_law(values, 32, ""), "0.283 to 0.383") is outcome
+    assert verdict_of(octaves(values, 32, ""), "0.283 to 0.383") is outcome
     for removed in sizes:
         rest = {n: value for n, value in values.items() if n != removed}
-        assert verdict_of(power_law(rest, 32, ""), "0.283 to 0.383") in (outcome, Outcome.UNDECIDED)
+        assert verdict_of(octaves(rest, 32, ""), "0.283 to 0.383") in (outcome, Outcome.UNDECIDED)
 
 
 def test_no_result_of_the_release_is_needed_for_a_report_and_fewer_decide_no_more() -> None:

@@ -26,7 +26,7 @@ from workflow.study.verdict import Outcome
 PLAN = Plan("smoke").panels
 IDS = {
     *(number.lower() for row in read_claims(ROOT) for number in row["numbers"].split()),
-    *(f"{row['numbers'].lower()[:3]}-intended" for row in read_claims(ROOT) if row["kind"] == "intended"),
+    *(f"{row['numbers'].lower()[:3]}-as-meant" for row in read_claims(ROOT) if row["kind"] == "as meant"),
     *PLAN,
 }
 

@@ -81,6 +81,20 @@ def test_verdict_of_one_number_follows_from_its_interval(number: Estimate, outco
     assert verdict.outcome is outcome
 
 
+@pytest.mark.parametrize(
+    ("value", "error", "outcome"),
+    [
+        (0.5, 0.01, Outcome.REPRODUCED),
+        (1.5, 0.01, Outcome.NEARLY),
+        (1.0, 0.1, Outcome.NEARLY),  # across the edge of the band, and in any case within the wider one
+        (2.0, 0.1, Outcome.UNDECIDED),
+        (3.0, 0.1, Outcome.CONTRADICTED),
+    ],
+)
+def test_a_wider_band_of_nearly_reproduced_statements(value: float, error: float, outcome: Outcome) -> None:
+    assert Verdict(BAND, (Estimate("", value, error),), LEVEL, Band(-2, 2)).outcome is outcome
+
+
 def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
     inside, open_, outside = Estimate("a", 0, 0.01), Estimate("b", 1, 0.5), Estimate("c", 2, 0.01)
     assert Verdict(BAND, (inside, open_), LEVEL).outcome is Outcome.UNDECIDED

@@ -1,6 +1,7 @@
 """The picture of the verdicts: from judgements of known truth to the plotted positions and the table."""
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -18,11 +19,11 @@ from tests.python.test_release import results_of_release
 from workflow.lib import style
 from workflow.lib.columns import as_csv
 from workflow.render.record import NUMBERS
-from workflow.study import verdicts
+from workflow.study import typeset, verdicts
 from workflow.study.judge import Judgement, judge_all, of_release, read_claims
 from workflow.study.report import numbers_file
 from workflow.study.results import Results
-from workflow.study.verdict import Band, Estimate, Verdict
+from workflow.study.verdict import Band, Estimate, Outcome, Verdict
 
 LEVEL = 0.01
 HALF = student.isf(LEVEL / 2, 9)  # half of an interval over its standard error
@@ -60,12 +61,12 @@ PLOTTED = {
 }
 
 
-def row(claim: str, kind: str = "literal") -> dict[str, str]:
+def row(claim: str, kind: str = "as printed") -> dict[str, str]:
     return {"numbers": claim, "kind": kind, "panel": "fig01", "statement": claim, "short": ""}
 
 
 JUDGED = [Judgement(row(name), Verdict(band, (one,), LEVEL)) for name, (band, one, _) in CLAIMS.items()]
-MISSING = Judgement(row("missing", "intended"), Verdict(Band(0, 1), (), LEVEL), "no run")
+MISSING = Judgement(row("missing", "as meant"), Verdict(Band(0, 1), (), LEVEL), "no run")
 
 
 @pytest.fixture(autouse=True)
@@ -148,16 +149,25 @@ def test_bands_with_one_edge_are_open() -> None:
     assert found == [(1, 3.3, y) for y in right] + [(-3.3, -1, y) for y in left]
 
 
-def test_a_number_above_the_frame_is_an_arrow_to_the_right_and_intended_meanings_are_open() -> None:
-    far = Judgement(row("far", "intended"), Verdict(Band(0, 1), (number(9, 0.1),), LEVEL))
+def test_a_number_above_the_frame_is_an_arrow_to_the_right_and_statements_as_meant_are_hollow() -> None:
+    far = Judgement(row("far", "as meant"), Verdict(Band(0, 1), (number(9, 0.1),), LEVEL))
     _, lines = plotted(verdicts.tabulate([far], {}))
     (symbol,) = lines[0]
     assert (symbol.get_marker(), *symbol.get_xdata()) == (">", 3)
     assert symbol.get_markerfacecolor() == "white"
 
 
+def test_the_band_of_nearly_reproduced_statements_is_lighter() -> None:
+    """Three times as wide as the acceptance band, about its centre."""
+    near = Judgement(row("near"), Verdict(Band(0, 1), (number(1.6, 0.01),), LEVEL, Band(-1, 2)))
+    axes, lines = plotted(verdicts.tabulate([near], {}))
+    _, wide = axes.patches
+    assert (wide.get_x(), wide.get_width()) == (-3, 6)
+    assert lines[0][-1].get_marker() == "s"
+
+
 def test_the_verdict_of_the_release_is_a_small_symbol() -> None:
-    release = {("inside", "literal"): "contradicted"}
+    release = {("inside", "as printed"): "contradicted"}
     table = verdicts.tabulate(JUDGED, release)
     assert [*table.release] == ["contradicted"] + ["not measured"] * (len(JUDGED) - 1)
     axes, _ = plotted(table)
@@ -180,11 +190,12 @@ def test_rows_are_in_the_order_of_the_figures() -> None:
 
 
 def test_the_table_is_a_csv_and_statements_are_typeset() -> None:
-    table = verdicts.tabulate([*JUDGED, MISSING], {("inside", "literal"): "reproduced"})
+    table = verdicts.tabulate([*JUDGED, MISSING], {("inside", "as printed"): "reproduced"})
     assert '"position": "1"' in as_csv(table, verdicts.UNITS)
-    assert "3 of 11 readings hold, 3 do not, 5 are open" in verdicts.caption(table)
+    counts = [int(one) for one in re.findall(r"\b\d+\b", verdicts.caption(table))]
+    assert counts[:5] == [11, 3, 0, 3, 5]
     for claim in read_claims(ROOT):
-        text = verdicts.typeset(claim["short"] or claim["statement"])
+        text = typeset.mathtext(claim["short"] or claim["statement"])
         assert "^" not in text.replace("$^{", "")
         assert "_" not in text.replace("$_{", "")
 
@@ -204,4 +215,4 @@ def test_only_other_qualities_depend_on_the_numbers_of_the_release() -> None:
     assert NUMBERS not in planned("paper")["verdicts"].inputs
     assert NUMBERS in planned("standard")["verdicts"].inputs
     assert of_release("paper") == {}
-    assert set(of_release("standard").values()) <= {"reproduced", "contradicted", "undecided"}
+    assert set(of_release("standard").values()) <= {*Outcome}

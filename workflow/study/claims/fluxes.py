@@ -133,7 +133,7 @@ def _lowered_by_bins(table: pd.DataFrame) -> float:
     """Factor by which the bins of the simulations lower the largest deviation, in the shortest chain in mean field."""
     shortest = table[table.kind == MEAN_FIELD].cells.min()
     fine = table[(table.kind == MEAN_FIELD) & (table.cells == shortest)].deviation.to_numpy()
-    bins = in_bins(fine, len(_of_size(table, shortest)))
+    bins = in_bins(fine, table[table.kind == SIMULATION].momentum.nunique())
     return float(np.abs(bins).max() / at_centre(table)[shortest])
 
 

@@ -1,6 +1,7 @@
 """Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
 import math
+from collections.abc import Sequence
 
 from workflow.lib.load import Result
 from workflow.study.results import Results, by_size, combination, estimate, octaves
@@ -10,6 +11,7 @@ from workflow.study.verdict import Estimate
 FIRST = 32  # cells from which power laws of kappa are judged: shorter chains consist mainly of their ends
 LONGEST = ("", "-long", "-longest")  # ends of the names of the series of a gas
 GASES = ("light", "dense", "sparse", "thin")  # rings without noise
+RULES = ("rotation", "reversal")
 DISTURBED = ("light", "thin")  # those also with noise in 10 % of the collisions
 
 
@@ -33,7 +35,8 @@ def _conductivities(data: Results, *series: str) -> dict[int, Estimate]:
 def superdiffusive(data: Results) -> list[Estimate]:
     """beta of <Q²> ∼ t^beta in the last octave of the longest ring of every gas. A gas that was not observed is
     unknown: fewer decide less."""
-    found = {gas: _longest(data, *(gas + end for end in LONGEST)) for gas in GASES}
+    rings = data.results("momentum", *(gas + end for gas in GASES for end in LONGEST))
+    found = {gas: _longest(rings, *(gas + end for end in LONGEST)) for gas in GASES}
     return [
         estimate(ring, "local_exponent", -1, f"β, {_named(ring)}") if ring else _unknown(f"β, {gas}")
         for gas, ring in found.items()
@@ -43,22 +46,22 @@ def superdiffusive(data: Results) -> list[Estimate]:
 def without_momentum(data: Results) -> list[Estimate]:
     """beta where a fraction of the collisions is followed by a rotation, which conserves momentum, minus that where
     as many reverse the scatterer, which does not, in the last octave of two gases."""
-    numbers = []
+    rings = data.results("momentum", *(f"{gas}-{rule}" for gas in DISTURBED for rule in RULES))
+    label, numbers = "rotation minus reversal, β", []
     for gas in DISTURBED:
-        rotation, reversal = (_longest(data, f"{gas}-{rule}") for rule in ("rotation", "reversal"))
-        label = "rotation minus reversal, β"
-        if not (rotation and reversal and _last_time(rotation) == _last_time(reversal)):
+        both = [_longest(rings, f"{gas}-{rule}") for rule in RULES]
+        known = [ring for ring in both if ring]
+        if len({_last_time(ring) for ring in known}) == 1 and len(known) == len(both):
+            exponents = [estimate(ring, "local_exponent", -1) for ring in known]
+            numbers.append(combination(exponents, [1, -1], f"{label}, {_named(known[0])}"))
+        else:
             numbers.append(_unknown(f"{label}, {gas}"))
-            continue
-        both = [estimate(ring, "local_exponent", -1) for ring in (rotation, reversal)]
-        numbers.append(combination(both, [1, -1], f"{label}, {_named(rotation)}"))
     return numbers
 
 
-def _longest(data: Results, *series: str) -> Result | None:
-    """The ring with the latest octave."""
-    found = [ring for ring in data.of_panel("momentum") if ring.series in series]
-    return max(found, key=_last_time, default=None)
+def _longest(rings: Sequence[Result], *series: str) -> Result | None:
+    """The ring of these series with the latest octave."""
+    return max((ring for ring in rings if ring.series in series), key=_last_time, default=None)
 
 
 def _unknown(label: str) -> Estimate:
