@@ -70,18 +70,21 @@ def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
 
 
 def draw_noise(axes: Axes, control: pd.DataFrame) -> None:
-    """Plots the conductivity <Q²>/2t by rule and fraction."""
+    """Plots the conductivity <Q²>/2t by rule and fraction, at the times of the noise."""
+    control = control[control.time <= control[control.rule != "elastic"].time.max()]
     for (rule, epsilon), part in control.groupby(["rule", "epsilon"]):
         name, look = NOISE.get(rule, (rule, style.points("P", style.GREEN)))
         label = f"{name}, {100 * epsilon:g} %" if epsilon else name
         axes.errorbar(part.time, part.spread, part.spread_error, label=label, **look | LINE)
     axes.set(xscale="log", yscale="log", xlabel="time $t$", ylabel=r"$\langle Q^2\rangle/2tN$")
+    axes.margins(y=0.25)  # room for the legend
     style.label_within_decades(axes.yaxis)
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper left")
 
 
 def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
     """Plots β - 1 of every gas."""
+    elastic = elastic.dropna(subset="middle")
     for (_, gas), look in zip(elastic.groupby(rings.STATE), cycle(GASES), strict=False):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
         label = rf"$\zeta = {zeta}$, $M = {mass}$"
@@ -90,7 +93,7 @@ def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
     style.guide_at(axes, 0, "0")
     style.guide_at(axes, 1 / 3, "1/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$")
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower left")
 
 
 def caption(sizes: pd.DataFrame) -> str:

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 
-import numpy as np
 import pandas as pd
 
 from workflow.lib.caption import format_number
@@ -49,31 +48,14 @@ def texts(zeta: float, mass: float) -> tuple[str, str]:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per gas and time. <Q²>, and its exponent over the octave that begins at this time, are each
-    taken from the ring in which their error is smallest."""
-    rows = []
+    """One row per gas and time, with the exponent of <Q²> over the octave that begins at this time; NaN for the last
+    one of a ring."""
+    tables = []
     for result in results:
         heat, exponent, scaled = result["heat_variance"], result["local_exponent"], chain(result)
-        of_gas = dict(zip(GAS, gas(result), strict=True)) | {"zeta": scaled.zeta, "mass": scaled.mass}
-        octaves = {
-            "middle": exponent.axes["middle"],
-            "local_exponent": exponent.mean,
-            "local_exponent_error": exponent.error,
-        }
-        for k, time in enumerate(heat.axes["time"]):
-            octave = {name: values[k] if k < len(values) else np.nan for name, values in octaves.items()}
-            row = {"cells": result.parameters["cells"], "time": time}
-            row |= {"heat_variance": heat.mean[k], "heat_variance_error": heat.error[k]}
-            rows.append(of_gas | row | octave)
-    table = pd.DataFrame(rows)
-    best = _most_precise(table, "heat_variance")
-    exponents = _most_precise(table.dropna(subset="middle"), "local_exponent")
-    columns = ["middle", "local_exponent", "local_exponent_error"]
-    merged = best.drop(columns=columns).merge(exponents[[*GAS, "time", *columns]], "left", [*GAS, "time"])
-    return merged.sort_values([*GAS, "time"], ignore_index=True)
-
-
-def _most_precise(table: pd.DataFrame, name: str) -> pd.DataFrame:
-    """The row of every gas and time with the smallest relative error of a quantity."""
-    relative = table[f"{name}_error"] / table[name].abs()
-    return table.loc[relative.sort_values().index].groupby([*GAS, "time"], sort=False).head(1)
+        own = dict(zip(GAS, gas(result), strict=True)) | {"zeta": scaled.zeta, "mass": scaled.mass}
+        own |= {"cells": result.parameters["cells"], "time": heat.axes["time"]}
+        table = pd.DataFrame(own | {"heat_variance": heat.mean, "heat_variance_error": heat.error})
+        octaves = {"middle": exponent.axes["middle"], "local_exponent": exponent.mean}
+        tables.append(table.join(pd.DataFrame(octaves | {"local_exponent_error": exponent.error})))
+    return pd.concat(tables).sort_values([*GAS, "time"], ignore_index=True)
