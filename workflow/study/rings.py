@@ -1,6 +1,7 @@
 """Rings in equilibrium."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import pandas as pd
 
@@ -53,7 +54,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     tables = []
     for result in results:
         heat, exponent, scaled = result["heat_variance"], result["local_exponent"], chain(result)
-        own = dict(zip(GAS, gas(result), strict=True)) | {"zeta": scaled.zeta, "mass": scaled.mass}
+        own: dict[str, Any] = dict(zip(GAS, gas(result), strict=True)) | {
+            "zeta": scaled.zeta,
+            "mass": scaled.mass,
+        }
         own |= {"cells": result.parameters["cells"], "time": heat.axes["time"]}
         table = pd.DataFrame(own | {"heat_variance": heat.mean, "heat_variance_error": heat.error})
         octaves = {"middle": exponent.axes["middle"], "local_exponent": exponent.mean}
