@@ -1,5 +1,5 @@
-"""Exact results for one function of every module of claims, called worlds, with the numbers that it must take from
-them. All claims are compared with the numbers of the release, in test_claims_of_release.py.
+"""Exact results for one function of every module of claims, called worlds, with the numbers that it must take
+from them. All claims are compared with the numbers of the release, in test_claims_of_release.py.
 
 Runs, elements and quantities that could be confused have different values, so that a number from a wrong
 one is noticed."""
@@ -84,7 +84,8 @@ claim(
 )  # fmt: skip
 
 
-# Persistence: the law plus a shift that depends on sigma and is twice as large in the dense chain, which must not count.
+# Persistence: the law plus a shift that depends on sigma and is twice as large in the dense chain, which must
+# not count.
 def shift(run: Run) -> float:
     return float((0.02 if run.series == "dense" else 0.01) * (2 + run.options["sigma"]))
 
@@ -93,9 +94,9 @@ persistences = {"fig05": {"mu": lambda run: np.arccos(run.options["sigma"]) / np
 claim("closed.persistence_limits", persistences, [0.01, 0.02, 0.03])
 
 
-# Conductivity. From N = 32 to 2N at gamma = 1 it grows as the power 1, at gamma = N as 1/2, and from there on by 0.01
-# more from octave to octave. The runs at N = 256 are not stationary; from one octave to the next nothing is known
-# there.
+# Conductivity. From N = 32 to 2N at gamma = 1 it grows as the power 1, at gamma = N as 1/2, and from there on
+# by 0.01 more from octave to octave. The runs at N = 256 are not stationary; from one octave to the next
+# nothing is known there.
 def kappa(run: Run) -> float:
     octave = math.log2(run.options["cells"] / 32)
     return float(2 ** (octave * (1 if rare(run) else 0.5) + 0.005 * octave * (octave - 1))) * (
@@ -112,7 +113,8 @@ by_octave = [1, 1.01, math.nan, 1.04, 1.05]
 claim("growth.linear", {"fig08": {"kappa": kappa, "stationary": still}}, by_octave)
 
 
-# The exponent over the last octave of a ring; over octaves before it is smaller. Shorter rings of a gas differ.
+# The exponent over the last octave of a ring; over octaves before it is smaller. Shorter rings of a gas
+# differ.
 last_octaves = {"light-longest": 1.31, "dense-longest": 1.32, "sparse-longest": 1.35, "thin-longest": 1.2}
 last_octaves |= {"light-rotation": 1.44, "light-reversal": 1.1, "thin-rotation": 1.3, "thin-reversal": 1.05}
 
@@ -126,8 +128,8 @@ claim("growth.superdiffusive", rings, [1.31, 1.32, 1.35, 1.2])
 claim("growth.without_momentum", rings, [0.34, 0.25])
 
 
-# Damping exponents of a pulse in a ring that has not closed: octaves have their number, fits 0.01 more for each time by
-# which they begin later. Those of the other start differ.
+# Damping exponents of a pulse in a ring that has not closed: octaves have their number, fits 0.01 more for
+# each time by which they begin later. Those of the other start differ.
 def rest(run: Run) -> float:
     return 0.64 if run.name == "rest" else 9.0
 

@@ -35,8 +35,8 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
 
 
 class Known(Results):
-    """Results of the runs of a plan, those of some panels, as the function of the panel returns them. A result
-    is made when a claim first needs it."""
+    """Results of the runs of a plan, those of some panels, as the function of the panel returns them. A
+    result is made when a claim first needs it."""
 
     def __init__(self, fills: Mapping[str, Fill], quality: str = "paper") -> None:
         super().__init__([])

@@ -87,8 +87,8 @@ def verdict_of(numbers: list[Estimate], band: str) -> Outcome:
     ],
 )
 def test_which_data_decide_a_octaves(law: Callable, error: float, outcome: Outcome) -> None:
-    """Fewer sizes do not decide more: what is undecided stays so without any of them, and what is decided does not
-    turn into the contrary."""
+    """Fewer sizes do not decide more: what is undecided stays so without any of them, and what is decided
+    does not turn into the contrary."""
     sizes = [2**k for k in range(5, 12)]
     values = {n: Estimate("", law(n), error * law(n)) for n in sizes}
     assert verdict_of(octaves(values, 32, ""), "0.283 to 0.383") is outcome

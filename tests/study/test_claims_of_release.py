@@ -1,7 +1,7 @@
 """The numbers of every claim from the results of the release are those of docs/gallery/numbers.csv.
 
-What was wrong when it was recorded stays: a new claim needs a test with numbers calculated by hand. Claims that are
-not recorded yet do not count.
+What was wrong when it was recorded stays: a new claim needs a test with numbers calculated by hand. Claims
+that are not recorded yet do not count.
 """
 
 import io
@@ -20,8 +20,8 @@ CLAIM, NUMBER = ["claim", "kind"], ["value", "error", "systematic"]
 
 
 def test_claims_have_the_recorded_numbers() -> None:
-    """Their verdicts depend on the number of claims. Detected mistake: a line of a claim, of `results.py` or of
-    `physics` changes a number."""
+    """Their verdicts depend on the number of claims. Detected mistake: a line of a claim, of `results.py` or
+    of `physics` changes a number."""
     recorded = pd.read_csv(ROOT / NUMBERS)
     judgements = judge_all(Results(results_of_release()))
     found = pd.read_csv(io.BytesIO(numbers_file(judgements)))

@@ -10,9 +10,9 @@ from workflow.study.rings import gas, tabulate
 
 
 def test_momentum() -> None:
-    """κ of heat is 7 N; ⟨Q²⟩ is t^(1 + a), with another a for every rule and gas. Chains have T_1 = 90 and T_N = 110. The
-    gas of N = 16 is observed in a ring of T = 4 and cells of length 3 for the time 5. Detected mistakes: the rings of
-    fig. 8's own gas among the others; the first time in place of the last."""
+    """κ of heat is 7 N; ⟨Q²⟩ is t^(1 + a), with another a for every rule and gas. Chains have T_1 = 90 and
+    T_N = 110. The gas of N = 16 is observed in a ring of T = 4 and cells of length 3 for the time 5.
+    Detected mistakes: the rings of fig. 8's own gas among the others; the first time in place of the last."""
     time, octaves = np.array([2.0, 4, 8]), np.sqrt([8, 32])
     ring = RING | {"cells": 100, "sigma": 0.5, "fugacity": 0.25, "temperature": 1.0, "cell_length": 1.0}
 
@@ -77,7 +77,8 @@ def test_a_gas_has_its_temperature_and_length() -> None:
 
 
 def test_an_exponent_is_in_the_row_of_the_time_at_which_its_octave_begins() -> None:
-    """A long ring begins where a short one ends. Detected mistake: the last octave of a ring in the row of its end."""
+    """A long ring begins where a short one ends. Detected mistake: the last octave of a ring in the row of
+    its end."""
     table = tabulate([ring([4, 8], 0.01, power=1.2), ring([1, 2, 4], 0.01)])
     assert table.time.tolist() == [1, 2, 4, 4, 8]
     known = table.dropna(subset="middle")

@@ -90,8 +90,8 @@ parent.postMessage(JSON.stringify([page.scrollWidth - page.clientWidth, figures]
 
 
 def laid_out(page: str, folder: Path, width: int) -> tuple[int, dict[str, list[float]]]:
-    """A page in a frame, without scroll bars as on phones, read by a script: pixels beyond its width; for every visible picture
-    its width, its scale, how far it scrolls, and the size of the text beside it."""
+    """A page in a frame, without scroll bars as on phones, read by a script: pixels beyond its width; for
+    every visible picture its width, its scale, how far it scrolls, and the size of the text beside it."""
     allowed = re.sub(r"<meta http-equiv=.Content-Security-Policy.*?>", "", page)
     (folder / "report.html").write_text(allowed + PROBE)
     (folder / "frame.html").write_text(FRAME.format(width=width))
@@ -104,8 +104,8 @@ def laid_out(page: str, folder: Path, width: int) -> tuple[int, dict[str, list[f
 @pytest.mark.long
 @pytest.mark.skipif(not CHROMIUM, reason="needs chromium")
 def test_the_report_on_a_narrow_screen(smoke: Path, tmp_path: Path) -> None:
-    """Detected mistakes: a picture or a table is wider than the screen; pictures are smaller than in print; the picture of the verdicts
-    without its results; details are open."""
+    """Detected mistakes: a picture or a table is wider than the screen; pictures are smaller than in print;
+    the picture of the verdicts without its results; details are open."""
     page = (smoke / "figures/smoke/report.html").read_text()
     beyond, figures = laid_out(page, tmp_path, 390)
     assert beyond == 0

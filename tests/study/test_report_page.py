@@ -84,8 +84,8 @@ ROWS = {(row["numbers"], row["kind"]): row for row in read_claims(ROOT)}
 
 
 def test_the_gallery_opens_with_the_readings_of_every_figure_and_their_count() -> None:
-    """Marks, links and numbers. Detected mistakes: fig. 10 after fig. 1; a row is missing; the verdict of another row; the count of another
-    verdict."""
+    """Marks, links and numbers. Detected mistakes: fig. 10 after fig. 1; a row is missing; the verdict of
+    another row; the count of another verdict."""
     verdicts = {
         ("C03", "as printed"): "contradicted",
         ("C02", "as printed"): "undecided",
@@ -124,8 +124,8 @@ def test_pictures_have_one_scale() -> None:
 
 
 def test_the_verdict_of_the_release_beside_an_undecided_one(tmp_path: Path) -> None:
-    """It is the answer. Detected mistakes: the verdict of the number in place of that of the statement; rows that are
-    decided here have it, too."""
+    """It is the answer. Detected mistakes: the verdict of the number in place of that of the statement; rows
+    that are decided here have it, too."""
     (tmp_path / GALLERY).mkdir(parents=True)
     (tmp_path / GALLERY / "numbers.csv").write_bytes(numbers_file(judged("contradicted")))
     page = rendered(judged("undecided"), WITHOUT_PANELS, tmp_path, release=False).decode()

@@ -201,8 +201,8 @@ def test_the_table_is_a_csv_and_statements_are_typeset() -> None:
 
 
 def test_the_panel_has_the_results_of_all_claims() -> None:
-    """Results of the panels in `uses` give the numbers of all. Detected mistakes: `uses` misses a panel, so that its
-    claims are not measured; series of the user count."""
+    """Results of the panels in `uses` give the numbers of all. Detected mistakes: `uses` misses a panel, so
+    that its claims are not measured; series of the user count."""
     uses = {run.panel for run in planned("paper")["verdicts"].plotted}
     every = results_of_release()
     results = [result for result in every if result.path.parent.name in uses]

@@ -1,10 +1,10 @@
 """Heat in rings: fig. 8's own gas, with noise in the collisions, and at a density that does not depend on N.
 
-Q is the heat current of a ring, integrated over its cells and a time [eq. 58]; <Q²>/2t per cell is its conductivity
-at this time, in units of T². (a) Fig. 8's conductivity of heat, and the Green-Kubo value of rings of its gas at the
-time in which sound crosses the chain [eq. 61]. (b) In a fraction of the collisions the momenta of the particle, its
-scatterer and a neighbouring one are rotated, which conserves energy and momentum [eq. 60], or the momentum of the
-scatterer is reversed, which conserves energy alone.
+Q is the heat current of a ring, integrated over its cells and a time [eq. 58]; <Q²>/2t per cell is its
+conductivity at this time, in units of T². (a) Fig. 8's conductivity of heat, and the Green-Kubo value of
+rings of its gas at the time in which sound crosses the chain [eq. 61]. (b) In a fraction of the collisions
+the momenta of the particle, its scatterer and a neighbouring one are rotated, which conserves energy and
+momentum [eq. 60], or the momentum of the scatterer is reversed, which conserves energy alone.
 """
 
 from collections.abc import Sequence
@@ -38,7 +38,7 @@ GASES = [("o", style.BLACK), *style.LOOKS[1:]]
 
 
 def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
-    """One row per N: conductivity of heat of the chain, Green-Kubo value of its gas, and the ratio of both."""
+    """One row per N: conductivity of heat of the chain, Green-Kubo value of its gas, and their ratio."""
     table = pd.DataFrame(
         {"cells": int(chain.parameters["cells"]), "usable": chain.usable} | chain.columns("kappa_heat")
         for chain in chains
@@ -104,9 +104,9 @@ def caption(sizes: pd.DataFrame) -> str:
         for row in known.drop_duplicates("cells").iloc[sorted({0, len(known) - 1})].itertuples()
     )
     return f"""
-        (a) Conductivity of heat in fig. 8, and the Green–Kubo value of rings of its gas, ζ = 16/N, at the time in
-        which sound crosses the chain, without a free parameter; the latter over the former is {ratios}. (b) Noise
-        that conserves momentum or breaks it. (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1."""
+        (a) Conductivity of heat in fig. 8, and the Green–Kubo value of rings of its gas, ζ = 16/N, at the
+        time in which sound crosses the chain, without a free parameter; the latter over the former is
+        {ratios}. (b) Noise that conserves momentum or breaks it. (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1."""
 
 
 SERIES = " ".join(f"{OWN}{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))

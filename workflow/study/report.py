@@ -4,6 +4,7 @@ docs/gallery/README.md with pictures beside it and all numbers in numbers.csv. E
 
 import argparse
 import base64
+import math
 import re
 import sys
 from collections import defaultdict
@@ -29,9 +30,7 @@ from workflow.study.verdict import Outcome
 
 GALLERY = "docs/gallery"
 SIGNS = dict(zip(Outcome, "✓≈✗?", strict=True))
-MOST_NUMBERS = (
-    12  # of a statement in the report; of more, only the one closest to the band's edge or farthest outside
-)
+MOST_NUMBERS = 12  # of a statement in the report; of more, only the decisive one
 INCH = 96  # pixels, as in CSS
 NARROW = 4  # inches: width of pictures that share a row
 
@@ -97,15 +96,15 @@ def inches(picture: bytes) -> float:
 
 
 def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[str, Any]:
-    """A statement with its verdict, for the template. least, most: its smallest and largest number; found: verdicts of
-    the release, one of which is `standing` where this one is undecided."""
+    """A statement with its verdict, for the template. least, most: its smallest and largest number; found:
+    verdicts of the release, one of which is `standing` where this one is undecided."""
     row, verdict = judgement.row, judgement.verdict
     first, *others = row["numbers"].lower().split()
     printed = row["kind"] == PRINTED
     anchor = first if printed else f"{first}-{row['kind'].replace(' ', '-')}"
     release = found.get((row["numbers"], row["kind"])) if verdict.outcome is Outcome.UNDECIDED else None
-    numbers = sorted(verdict.numbers, key=lambda number: number.value)
-    listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.decisive]
+    numbers = sorted((one for one in verdict.numbers if math.isfinite(one.value)), key=lambda one: one.value)
+    listed = verdict.numbers if len(verdict.numbers) <= MOST_NUMBERS else [verdict.decisive]
     return dict(row) | {
         "anchor": anchor,
         "ids": [anchor, *others] if printed else [anchor],
@@ -118,12 +117,12 @@ def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[st
         "standing": release or verdict.outcome.value,
         "band": typeset.acceptance(verdict.band),
         "nearly": typeset.acceptance(verdict.nearly) if verdict.nearly else "",
-        "value": typeset.value(verdict.decisive) if numbers else "not measured",
-        "label": verdict.decisive.label if numbers else "",
+        "value": typeset.value(verdict.decisive) if verdict.numbers else "not measured",
+        "label": verdict.decisive.label if verdict.numbers else "",
         "list": [
             (number.label, typeset.value(number), verdict.outcome_of(number).value) for number in listed
         ],
-        "omitted": len(numbers) - len(listed),
+        "omitted": len(verdict.numbers) - len(listed),
         "outside": sum(verdict.outcome_of(number) is Outcome.CONTRADICTED for number in numbers),
         "least": typeset.value(numbers[0]) if numbers else "",
         "most": typeset.value(numbers[-1]) if numbers else "",
@@ -132,7 +131,8 @@ def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[st
 
 
 def numbers_file(judgements: Sequence[Judgement]) -> bytes:
-    """CSV with one line per number of every statement. Raises TableError if it would be read as another table."""
+    """CSV with one line per number of every statement. Raises TableError if it would be read as another
+    table."""
     lines = [
         {
             "claim": judgement.row["numbers"],

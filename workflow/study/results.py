@@ -91,24 +91,24 @@ def combination(
 
 
 def exponent_between(first: Estimate, last: Estimate, factor: float, label: str) -> Estimate:
-    """Exponent of a power law through two independent numbers, at places whose ratio is `factor`. The errors of
-    two times of one run are correlated; the error is then too large."""
+    """Exponent of a power law through two independent numbers, at places whose ratio is `factor`. The errors
+    of two times of one run are correlated; the error is then too large."""
     _, slope, error = local_exponents((1, factor), (first.value, last.value), (first.error, last.error))
     return Estimate(label, float(slope[0]), float(error[0]), min(first.dof, last.dof))
 
 
 def octave(values: Mapping[int, Estimate], a: int, b: int, label: str) -> Estimate:
-    """Exponent of a power law between two sizes; unknown, NaN, without a value at the smaller one, or if they are
-    farther apart than an octave. So fewer sizes decide less."""
+    """Exponent of a power law between two sizes; unknown, NaN, without a value at the smaller one, or if they
+    are farther apart than an octave. So fewer sizes decide less."""
     if a in values and b <= 2 * a:
         return exponent_between(values[a], values[b], b / a, label)
     return Estimate(label, math.nan, math.nan)
 
 
 def octaves(values: Mapping[int, Estimate], first: int, label: str) -> list[Estimate]:
-    """The numbers of a statement that a power law holds from size `first` on: the exponents between neighbouring
-    sizes, so that a bend is contradicted if it is wider than the band, and not otherwise. Raises MissingError if there
-    are not two octaves."""
+    """The numbers of a statement that a power law holds from size `first` on: the exponents between
+    neighbouring sizes, so that a bend is contradicted if it is wider than the band, and not otherwise.
+    Raises MissingError if there are not two octaves."""
     sizes = [first, *(size for size in sorted(values) if size > first)]
     if sizes[-1] < 4 * first:
         raise MissingError(f"no stationary sizes over two octaves, from {first} on")

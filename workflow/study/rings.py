@@ -27,15 +27,16 @@ def chain(result: Result) -> Chain:
 
 
 def gas(result: Result) -> tuple[str | float, ...]:
-    """Values of the columns GAS, as given: ζ and M would be equal at other temperatures or lengths, and differ by
-    rounding."""
+    """Values of the columns GAS, as given: ζ and M would be equal at other temperatures or lengths, and
+    differ by rounding."""
     state = (float(result.parameters[name]) for name in STATE)
     return (result.parameters["rule"], epsilon(result), *state)
 
 
 def green_kubo(result: Result, temperature: float) -> tuple[int, float, float]:
-    """N of the chain of fig. 8 that holds this gas, and its conductivity of heat per cell by Green and Kubo at the
-    last time of the ring [eq. 61], with its error. temperature: of the chain, whose cells are 1/N long."""
+    """N of the chain of fig. 8 that holds this gas, and its conductivity of heat per cell by Green and Kubo
+    at the last time of the ring [eq. 61], with its error. temperature: of the chain, whose cells are 1/N
+    long."""
     heat, own = result["heat_variance"], chain(result)
     cells = round(SLOW_FLUX / own.zeta)
     unit = 2 * heat.axes["time"][-1] * own.cell_length * own.temperature**2.5 / (cells * temperature**0.5)
@@ -49,8 +50,8 @@ def texts(zeta: float, mass: float) -> tuple[str, str]:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per gas and time, with the exponent of <Q²> over the octave that begins at this time; NaN for the last
-    one of a ring."""
+    """One row per gas and time, with the exponent of <Q²> over the octave that begins at this time; NaN for
+    the last one of a ring."""
     tables = []
     for result in results:
         heat, exponent, scaled = result["heat_variance"], result["local_exponent"], chain(result)

@@ -24,7 +24,7 @@ def mathtext(text: str) -> str:
 
 
 def _with_scripts(text: str, above: str, below: str) -> str:
-    """Text with superscripts after ^, subscripts after _, both in these formats, and typographic minus signs."""
+    """Text with superscripts after ^ and subscripts after _ in these formats, and minus signs."""
     power = r"\^(?:\(([^)]*)\)|([-−]?\d+\.\d+(?:\(\d+\))?|[-−]?\w+))"
     text = re.sub(power, lambda match: above.format(match[1] or match[2]), text)
     text = re.sub(r"_(\w+)", lambda match: below.format(match[1]), text)

@@ -1,10 +1,10 @@
 """The verdict on a statement from its numbers and its acceptance band.
 
 A measurement is an interval: the value, plus and minus the systematic error and as many standard errors as
-the level requires. The statement is reproduced if all its intervals are inside the band, contradicted if one is
-outside, and undecided otherwise, also if nothing was measured. So neither of the first two verdicts is wrong
-more often than the level. A statement may have a wider band of deviations that no eye sees in a figure: it is nearly
-reproduced if all intervals are inside that one, and contradicted only if one is outside.
+the level requires. The statement is reproduced if all its intervals are inside the band, contradicted if one
+is outside, and undecided otherwise, also if nothing was measured. So neither of the first two verdicts is
+wrong more often than the level. A statement may have a wider band of deviations that no eye sees in a figure:
+it is nearly reproduced if all intervals are inside that one, and contradicted only if one is outside.
 """
 
 import math

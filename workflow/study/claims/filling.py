@@ -20,8 +20,8 @@ def stationary_above_front(data: Results) -> list[Estimate]:
 
 
 def grows_logarithmically(data: Results) -> list[Estimate]:
-    """dn/d ln t over the height of |p| n_t(p) above p_0 at the last time, minus 1. The errors of both are correlated;
-    that of the height is a tenth of the other."""
+    """dn/d ln t over the height of |p| n_t(p) above p_0 at the last time, minus 1. The errors of both are
+    correlated; that of the height is a tenth of the other."""
     result = data.one("fig01", RUN)
     slope, height = estimate(result, "log_slope"), estimate(result, "plateau", -1)
     return [ratio(slope, height, "(dn/d ln t)/(|p| n_t(p)) - 1") - 1]

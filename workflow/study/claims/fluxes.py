@@ -116,8 +116,8 @@ def _finite(data: Results) -> tuple[pd.DataFrame, float]:
 
 
 def deviations_over_bounds(data: Results) -> list[Estimate]:
-    """Largest |F_N - F| of the outgoing particles, that as p -> 0, over the printed bound, at every N. The paper does
-    not state its bins: the difference from the bins of the simulations is a systematic error."""
+    """Largest |F_N - F| of the outgoing particles, that as p -> 0, over the printed bound, at every N. The
+    paper does not state its bins: the difference from the bins of the simulations is a systematic error."""
     table, degrees = _finite(data)
     scale, lowered = float((table.absolute_as_printed / table.deviation).median()), _lowered_by_bins(table)
     numbers = []
@@ -130,7 +130,8 @@ def deviations_over_bounds(data: Results) -> list[Estimate]:
 
 
 def _lowered_by_bins(table: pd.DataFrame) -> float:
-    """Factor by which the bins of the simulations lower the largest deviation, in the shortest chain in mean field."""
+    """Factor by which the bins of the simulations lower the largest deviation, in the shortest chain in mean
+    field."""
     shortest = table[table.kind == MEAN_FIELD].cells.min()
     fine = table[(table.kind == MEAN_FIELD) & (table.cells == shortest)].deviation.to_numpy()
     bins = in_bins(fine, table[table.kind == SIMULATION].momentum.nunique())
@@ -201,11 +202,12 @@ def _behind(solution: Quantity, bond: int, flux: Quantity) -> np.ndarray:
 
 
 def jump_smaller(data: Results) -> list[Estimate]:
-    rare, deterministic = data.one("fig04a", "rare"), data.one("fig04b", "deterministic")
-    return [
-        ratio(estimate(deterministic, "jump", bond), estimate(rare, "jump", bond), f"jump(γ = N)/jump(γ = 1), {name}")
-        for bond, name in ENDS
-    ]  # fmt: skip
+    deterministic, rare = data.one("fig04b", "deterministic"), data.one("fig04a", "rare")
+    numbers = []
+    for bond, name in ENDS:
+        above, below = (estimate(run, "jump", bond) for run in (deterministic, rare))
+        numbers.append(ratio(above, below, f"jump(γ = N)/jump(γ = 1), {name}"))
+    return numbers
 
 
 def jump_from_rates_only(data: Results) -> list[Estimate]:

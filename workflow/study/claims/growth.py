@@ -33,8 +33,8 @@ def _conductivities(data: Results, *series: str) -> dict[int, Estimate]:
 
 
 def superdiffusive(data: Results) -> list[Estimate]:
-    """beta of <Q²> ∼ t^beta in the last octave of the longest ring of every gas. A gas that was not observed is
-    unknown: fewer decide less."""
+    """beta of <Q²> ∼ t^beta in the last octave of the longest ring of every gas. A gas that was not observed
+    is unknown: fewer decide less."""
     rings = data.results("momentum", *(gas + end for gas in GASES for end in LONGEST))
     found = {gas: _longest(rings, *(gas + end for end in LONGEST)) for gas in GASES}
     return [
@@ -44,8 +44,8 @@ def superdiffusive(data: Results) -> list[Estimate]:
 
 
 def without_momentum(data: Results) -> list[Estimate]:
-    """beta where a fraction of the collisions is followed by a rotation, which conserves momentum, minus that where
-    as many reverse the scatterer, which does not, in the last octave of two gases."""
+    """beta where a fraction of the collisions is followed by a rotation, which conserves momentum, minus that
+    where as many reverse the scatterer, which does not, in the last octave of two gases."""
     rings = data.results("momentum", *(f"{gas}-{rule}" for gas in DISTURBED for rule in RULES))
     label, numbers = "rotation minus reversal, β", []
     for gas in DISTURBED:

@@ -57,8 +57,8 @@ def density_profiles(data: Results) -> list[Estimate]:
 
 
 def linear_rates(data: Results) -> list[Estimate]:
-    """Deviations of the rates from a straight line and of the current from its mean, over the mean rate. At the end
-    scatterers a bath determines one of the rates."""
+    """Deviations of the rates from a straight line and of the current from its mean, over the mean rate. At
+    the end scatterers a bath determines one of the rates."""
     numbers = []
     for result, name in _both(data):
         scale = float(result["rate_right"].mean.mean())

@@ -1,7 +1,7 @@
 """Claims on the energy pulse (figs. 9 and 10).
 
-Statements as printed are judged from the paper's start, scatterers at rest that have relaxed; other starts and
-rings belong to what is meant.
+Statements as printed are judged from the paper's start, scatterers at rest that have relaxed; other starts
+and rings belong to what is meant.
 """
 
 import math
@@ -85,8 +85,8 @@ def ballistic_later(data: Results) -> list[Estimate]:
 
 
 def damping(data: Results) -> list[Estimate]:
-    """Damping exponents of the paper's pulse at gamma = N, by octave from RESOLVED on. The bias of the fits of the
-    peak's height bounds the systematic error."""
+    """Damping exponents of the paper's pulse at gamma = N, by octave from RESOLVED on. The bias of the fits
+    of the peak's height bounds the systematic error."""
     result = data.one("fig09a", PAPERS_START)
     octaves = [
         replace(one, systematic=PEAK_BIAS) for start, one in _by_octave(result) if start >= RESOLVED[0]
@@ -107,8 +107,9 @@ def damping_fits(data: Results) -> list[Estimate]:
 
 
 def damping_rare(data: Results) -> list[Estimate]:
-    """Damping exponents at gamma = 1 from the paper's start, by octave. In free flight, where the peak is at s =
-    √(2 ε̃) t/λ cells, cells lower its height by 1/(6 s²); what this changes bounds the systematic error."""
+    """Damping exponents at gamma = 1 from the paper's start, by octave. In free flight, where the peak is at
+    s = √(2 ε̃) t/λ cells, cells lower its height by 1/(6 s²); what this changes bounds the systematic
+    error."""
     result = data.one("fig09b", PAPERS_START)
     cells = math.sqrt(2 * result.parameters["pulse_energy"]) / float(result.parameters["cell_length"])
     return [
@@ -118,8 +119,8 @@ def damping_rare(data: Results) -> list[Estimate]:
 
 
 def _by_octave(result: Result) -> list[tuple[float, Estimate]]:
-    """First time and damping exponent of the octaves of a pulse. NaN, so unknown, if the peak is not resolved in
-    most of the octave."""
+    """First time and damping exponent of the octaves of a pulse. NaN, so unknown, if the peak is not resolved
+    in most of the octave."""
     until = result["local_damping_exponent"].axes["until"]
     return [
         (time / 2, estimate(result, "local_damping_exponent", k, f"damping exponent, until t = {time:g}"))
