@@ -17,19 +17,8 @@ from workflow.study.results import Claim, MissingError, Results
 from workflow.study.verdict import Band, Outcome, Verdict, level_of_each
 
 CLAIMS_FILE = "workflow/study/claims.csv"
-COLUMNS = [
-    "numbers",
-    "kind",
-    "place",
-    "statement",
-    "short",
-    "panel",
-    "function",
-    "band",
-    "nearly",
-    "criterion",
-    "caveat",
-]
+COLUMNS = ["numbers", "kind", "place", "statement", "short", "panel", "function"]
+COLUMNS += ["band", "nearly", "criterion", "caveat"]
 MOST_LETTERS = 60  # of a statement in the picture of the verdicts: `short`, or `statement` without one
 PRINTED, MEANT = KINDS = ("as printed", "as meant")
 MODULES = {
