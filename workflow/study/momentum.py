@@ -77,7 +77,7 @@ def draw_noise(axes: Axes, control: pd.DataFrame) -> None:
         label = f"{name}, {100 * epsilon:g} %" if epsilon else name
         axes.errorbar(part.time, part.spread, part.spread_error, label=label, **look | LINE)
     axes.set(xscale="log", yscale="log", xlabel="time $t$", ylabel=r"$\langle Q^2\rangle/2tN$")
-    axes.margins(y=0.25)  # room for the legend
+    axes.margins(y=0.4)  # room for the legend
     style.label_within_decades(axes.yaxis)
     axes.legend(loc="upper left")
 
@@ -93,7 +93,7 @@ def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
     style.guide_at(axes, 0, "0")
     style.guide_at(axes, 1 / 3, "1/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$")
-    axes.legend(loc="lower left")
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 0.08))  # above the guide at 0
 
 
 def caption(sizes: pd.DataFrame) -> str:
