@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
+from tests.python.described import options_of_programs
 from workflow.lib.load import Result, load
 from workflow.pipeline.configuration import arguments
-from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.plan import Plan, Run
 
 ROOT = Path(__file__).parents[2]

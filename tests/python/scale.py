@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 
+from tests.python.described import options_of_programs
 from workflow.lib.load import Quantity, Result
 from workflow.lib.units import parse
-from workflow.pipeline.described import options_of_programs
 
 ROUNDING = 1e-9  # relative to the largest value of a dataset
 

@@ -5,7 +5,7 @@ import subprocess
 import pytest
 
 from tests.python.conftest import ROOT, Measure
-from workflow.pipeline.described import described, options_of_programs
+from tests.python.described import described, options_of_programs
 
 # Decisions that a reader of a caption, or who chooses an effort, relies on.
 ROLES = {

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from workflow.pipeline.described import described
+from tests.python.described import described
 
 ROOT = Path(__file__).parents[2]
 EXACT = {  # correctly rounded, or without rounding

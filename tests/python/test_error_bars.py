@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import OverSeeds, spread_accepted
-from workflow.pipeline.described import options_of_programs
+from tests.python.described import options_of_programs
 
 SEEDS, LEVEL = 50, 1e-3
 REPLICAS = 24

@@ -8,8 +8,8 @@ import h5py
 import pytest
 
 from tests.python.conftest import Measure, Program
+from tests.python.described import described, options_of_programs
 from workflow.lib.load import load
-from workflow.pipeline.described import described, options_of_programs
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
 PROVENANCE = {"format", "format_version", "program", "option_words", "source_hash", "compiler", "flags", "libraries", "events",

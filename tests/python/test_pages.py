@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
+from tests.python.described import options_of_programs
 from workflow.lib.caption import BATHS
 from workflow.physics.paper import PAPER
-from workflow.pipeline.described import options_of_programs
 
 
 def test_the_version_is_that_of_the_citation() -> None:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program
+from tests.python.described import options_of_programs
 from workflow.lib.load import ALL_AGREE, load
-from workflow.pipeline.described import options_of_programs
 
 
 def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> None:

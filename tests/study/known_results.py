@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from tests.python.conftest import planned, sampled
+from tests.python.described import described
 from workflow.lib.load import Quantity, Result
-from workflow.pipeline.described import described
 from workflow.pipeline.plan import Run
 from workflow.study.results import MissingError, Results
 
