@@ -23,12 +23,12 @@ def test_momentum() -> None:
         own = options | {"rule": name}
         series = {"elastic": "light"}.get(name, name)
         runs += [result(series, RING | ring | own, "heat_current",
-                        heat_variance=(time ** (1 + a), {"time": time}), local_exponent=([1 + a, 1 + a], {"middle": np.sqrt([8, 32])}))]  # fmt: skip
+                        mean_square_heat=(time ** (1 + a), {"time": time}), local_exponent=([1 + a, 1 + a], {"middle": np.sqrt([8, 32])}))]  # fmt: skip
         chain = {"elastic": "deterministic"}.get(name, f"chain-{name}")
         runs += [result(f"{chain}_cells={n}", CHAIN | {"cells": n} | own, "conductivity", kappa=7 * n**a, stationary=1.0,
                         stationarity_p_value=0.5) for n in (*sizes, *([128] if name == "elastic" else []))]  # fmt: skip
     runs.append(result("dense-longest", RING | ring | {"rule": "elastic", "fugacity": 2.0}, "heat_current",
-                       heat_variance=(time**1.25, {"time": time}), local_exponent=([1.25, 1.25], {"middle": np.sqrt([8, 32])})))  # fmt: skip
+                       mean_square_heat=(time**1.25, {"time": time}), local_exponent=([1.25, 1.25], {"middle": np.sqrt([8, 32])})))  # fmt: skip
     (chains, rings, gases), table, caption = draw("momentum", runs, "study")
     powers = [a for a, _ in cases.values()]
     assert_points(chains, *((sizes, (kappa := 7 * np.array(sizes) ** a), 0.01 * kappa) for a in powers))
@@ -63,7 +63,7 @@ def ring(
     parameters = {"temperature": 1.0, "cell_length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit_from": 2.0,
                   "rule": "elastic", "replicas": 64}  # fmt: skip
     quantities = {
-        "heat_variance": quantity(time**power, error, time=time),
+        "mean_square_heat": quantity(time**power, error, time=time),
         "local_exponent": quantity(np.full(len(middle), power), of_exponent * error, middle=middle),
     }
     return Result(ROOT, parameters | options, {}, quantities)
@@ -86,9 +86,9 @@ def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
     table = tabulate(results)
     rotated = table[table.epsilon == 0.1]
     table = table[table.epsilon == 0]
-    np.testing.assert_allclose(rotated.heat_variance, rotated.time**1.1)
+    np.testing.assert_allclose(rotated.mean_square_heat, rotated.time**1.1)
     sound, random = (table[table.rule == rule] for rule in ("elastic", "random-direction"))
     assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
-    np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.2])
+    np.testing.assert_allclose(sound.mean_square_heat, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.2])
     np.testing.assert_allclose(sound.local_exponent, [4 / 3, 1.2, 1.2, np.nan])
     np.testing.assert_allclose(sound.middle, [2**0.5, 8**0.5, 32**0.5, np.nan])

@@ -139,8 +139,8 @@ def draw(results: Sequence[Result]) -> Parts:
     disturbed = chains[chains.rule != "elastic"].cells
     chains = chains[chains.cells.between(disturbed.min(), disturbed.max())]
     table = rings.tabulate(of_rings)
-    table["spread"] = table.heat_variance / (2 * table.time)
-    table["spread_error"] = table.heat_variance_error / (2 * table.time)
+    table["spread"] = table.mean_square_heat / (2 * table.time)
+    table["spread_error"] = table.mean_square_heat_error / (2 * table.time)
     broken = table[table.rule == "reversal"].iloc[0]
     control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
     cases = [Case(*pair) for part in (chains, control) for pair in zip(part.rule, part.epsilon, strict=True)]

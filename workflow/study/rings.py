@@ -43,7 +43,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     taken from the ring in which their error is smallest."""
     rows = []
     for result in results:
-        heat, exponent, scaled = result["heat_variance"], result["local_exponent"], chain(result)
+        heat, exponent, scaled = result["mean_square_heat"], result["local_exponent"], chain(result)
         of_gas = dict(zip(GAS, gas(result), strict=True)) | {"zeta": scaled.zeta, "mass": scaled.mass}
         octaves = {
             "middle": exponent.axes["middle"],
@@ -53,10 +53,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         for k, time in enumerate(heat.axes["time"]):
             octave = {name: values[k] if k < len(values) else np.nan for name, values in octaves.items()}
             row = {"cells": result.parameters["cells"], "time": time}
-            row |= {"heat_variance": heat.mean[k], "heat_variance_error": heat.error[k]}
+            row |= {"mean_square_heat": heat.mean[k], "mean_square_heat_error": heat.error[k]}
             rows.append(of_gas | row | octave)
     table = pd.DataFrame(rows)
-    best = _most_precise(table, "heat_variance")
+    best = _most_precise(table, "mean_square_heat")
     exponents = _most_precise(table.dropna(subset="middle"), "local_exponent")
     columns = ["middle", "local_exponent", "local_exponent_error"]
     merged = best.drop(columns=columns).merge(exponents[[*GAS, "time", *columns]], "left", [*GAS, "time"])
