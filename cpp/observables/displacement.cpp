@@ -34,9 +34,9 @@ struct Parameters : ClosedParameters {
 
 struct Tallies : ClosedTallies {
   Axis time;
-  Tally square = tally("variance", {time}, "length^2", "<x^2>, no mean subtracted");
+  Tally square = tally("mean_square_displacement", {time}, "length^2", "<x^2>, no mean subtracted");
   Tally centre_square =
-      tally("centre_of_mass_variance", {time}, "length^2", "Mean square of the particles' mean displacement");
+      tally("mean_square_drift", {time}, "length^2", "Mean square of the particles' mean displacement");
   ScalarTally momentum_square =
       tally("momentum_square", "1", "Square of the total momentum over its mean, minus 1; mean 0");
 

@@ -31,7 +31,7 @@ using Parameters = HeatCurrentParameters;
 
 struct Tallies : ClosedTallies {
   Axis time;
-  Tally heat = tally("heat_variance", {time}, "energy^2 length^2",
+  Tally heat = tally("mean_square_heat", {time}, "energy^2 length^2",
                      "<Q^2>/N: mean square of the heat that passes in a time, per cell");
 
   explicit Tallies(const std::vector<double>& times)
@@ -86,7 +86,7 @@ struct Growth {
   }
 };
 
-std::vector<Group> variances(const Parameters& parameters, const Tallies& tallies) {
+std::vector<Group> growth_of_heat(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
   const Axis middle{"middle", "time", "Geometric middle of two neighbouring times", geometric_middles(times)};
   const double T = parameters.temperature, length = parameters.ring.cell_length;
@@ -116,7 +116,7 @@ Study heat_current(const Parameters& parameters) {
   const Tallies tallies(parameters.times);
   return closed_study(parameters, tallies,
                       std::bind_front(observe, parameters, tallies, lags(parameters.times)),
-                      variances(parameters, tallies), "amplitude");
+                      growth_of_heat(parameters, tallies), "amplitude");
 }
 
 }  // namespace

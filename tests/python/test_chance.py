@@ -61,7 +61,7 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)
     moments, scatterings, sums, waits = np.split(rows, 2 * len(times) + np.array([0, 1, 4]), axis=1)
-    names = ("variance", "centre_of_mass_variance")
+    names = ("mean_square_displacement", "mean_square_drift")
     measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 2), 2, 0), strict=True))
     means = dict(zip(MEANS, np.moveaxis(sums[:, :, None], 1, 0), strict=True))
     return measurements | means | {"scatterings": scatterings, "waits": waits}
@@ -91,7 +91,7 @@ def measured(measure: Measure, chain: Chain) -> Measured:
                 np.ravel(x)[::every] for x in (result[key].mean, result[key].standard_error)
             )
 
-    add("displacement", ["variance", "centre_of_mass_variance"], EVERY, decades=DECADES)
+    add("displacement", ["mean_square_displacement", "mean_square_drift"], EVERY, decades=DECADES)
     add("persistence", [*MEANS])
     add("waiting_time", ["density"])
     return measurements

@@ -72,13 +72,13 @@ def test_fig07() -> None:
         ("zero-momentum", 11, True, 1.1, 5.0),
     )
     runs = [
-        result(run, RING | {"cells": cells, "zero_total_momentum": zero, "fit_decades": 1.0}, variance=(factor * time**power, {"time": time}),
-               centre_of_mass_variance=((0.3 if cells == 11 else 0.05) * time**2, {"time": time}),
+        result(run, RING | {"cells": cells, "zero_total_momentum": zero, "fit_decades": 1.0}, mean_square_displacement=(factor * time**power, {"time": time}),
+               mean_square_drift=((0.3 if cells == 11 else 0.05) * time**2, {"time": time}),
                local_slope=(np.full(3, power), {"time": time[1:]}), alpha=power)
         for run, cells, zero, power, factor in laws
     ]  # fmt: skip
     (above, below), table, caption = draw("fig07", [runs[2], *runs[:2]])
-    assert_points(above, *((time, *both(run["variance"])) for run in runs))
+    assert_points(above, *((time, *both(run["mean_square_displacement"])) for run in runs))
     assert_points(below, *((np.sqrt(time[1:] * time[:-1]), *both(run["local_slope"])) for run in runs))
     for factor in (0.3, 0.05):
         assert_line(above, time, factor * time**2)
@@ -86,13 +86,11 @@ def test_fig07() -> None:
     np.testing.assert_allclose(random.fraction, 0.3 * time**2 / (4 * time**1.8))
     relative = [
         error / mean
-        for mean, error in (both(runs[0][name]) for name in ("centre_of_mass_variance", "variance"))
+        for mean, error in (both(runs[0][name]) for name in ("mean_square_drift", "mean_square_displacement"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
     assert "is 1.800(18) in the shaded window, and 1.100(11) at zero total momentum" in caption
-    ends = [
-        errors[-1] / means[-1] for means, errors in (both(run["centre_of_mass_variance"]) for run in runs[:2])
-    ]
+    ends = [errors[-1] / means[-1] for means, errors in (both(run["mean_square_drift"]) for run in runs[:2])]
     assert f"6.000({1000 * 6 * np.hypot(*ends):.0f}) times less at N = 99" in caption
 
 

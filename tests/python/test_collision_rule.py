@@ -46,10 +46,10 @@ def test_currents_of_independent_walkers(
 @pytest.mark.parametrize(
     ("name", "quantity", "rule"),
     [
-        ("displacement", "variance", "reversal"),
+        ("displacement", "mean_square_displacement", "reversal"),
         ("energy_pulse", "energy_difference", "reversal"),
         ("momentum_flux", "flux", "reversal"),
-        ("heat_current", "heat_variance", "rotation"),
+        ("heat_current", "mean_square_heat", "rotation"),
         ("conductivity", "energy_current", "rotation"),
     ],
 )
@@ -60,7 +60,7 @@ def test_without_noise_the_rule_is_elastic(measure: Measure, name: str, quantity
     never, seldom = (
         measure(name, (0, 4), rule=rule, **{f"{rule}_probability": p})[quantity].mean for p in (0, 0.01)
     )
-    rounding = 1e-13 if quantity == "heat_variance" else 0
+    rounding = 1e-13 if quantity == "mean_square_heat" else 0
     np.testing.assert_allclose(never, elastic, rtol=rounding)
     assert not np.allclose(seldom, elastic, rtol=1e-9)
 

@@ -38,11 +38,11 @@ def scores(quantity: Quantity, expected: np.ndarray | float) -> np.ndarray:
 def test_short_times_have_the_variance_of_the_current(heat_current: Measure) -> None:
     """The variance of J_q is 2ζT³."""
     result = heat_current(**SHORT)
-    time = result["heat_variance"].axes["time"]
-    assert np.abs(scores(result["heat_variance"], 2 * ZETA * T**3 * time**2)).max() < 4
+    time = result["mean_square_heat"].axes["time"]
+    assert np.abs(scores(result["mean_square_heat"], 2 * ZETA * T**3 * time**2)).max() < 4
     assert np.abs(result["local_exponent"].mean - 2).max() < 0.01
     # Detected mistake: the current of energy, whose variance is 6ζT³ larger.
-    assert np.abs(scores(result["heat_variance"], 4 * ZETA * T**3 * time**2)).min() > 10
+    assert np.abs(scores(result["mean_square_heat"], 4 * ZETA * T**3 * time**2)).min() > 10
 
 
 def test_short_times_with_rotations_have_the_variance_of_the_energy_that_they_carry(
@@ -59,10 +59,10 @@ def test_short_times_with_rotations_have_the_variance_of_the_energy_that_they_ca
     mass = (1 + 0.5) / (1 - 0.5)
     a = mass / (1 + 2 * mass)
     carried = T**2 * (1 - a**2 - (1 - a) ** 2 / 2)
-    time = result["heat_variance"].axes["time"]
+    time = result["mean_square_heat"].axes["time"]
     expected = FUGACITY * np.sqrt(2 * np.pi * T) * LENGTH**2 * carried * time + 2 * ZETA * T**3 * time**2
-    assert (result["heat_variance"].error / expected).max() < 0.02
-    assert np.abs(scores(result["heat_variance"], expected)).max() < 4
+    assert (result["mean_square_heat"].error / expected).max() < 0.02
+    assert np.abs(scores(result["mean_square_heat"], expected)).max() < 4
 
 
 def of_walkers(time: float, scattered: float) -> float:
@@ -81,22 +81,22 @@ def of_walkers(time: float, scattered: float) -> float:
     return float(np.trapezoid([u * of_speed(u) for u in speeds], np.log(speeds)))
 
 
-def test_heat_variance_with_random_directions_is_that_of_walkers(heat_current: Measure) -> None:
+def test_mean_square_heat_with_random_directions_is_that_of_walkers(heat_current: Measure) -> None:
     result = heat_current(**LONGER | {"cells": 5, "replicas": 20000, "sigma": -1, "rule": "random-direction"})
-    times = result["heat_variance"].axes["time"]
+    times = result["mean_square_heat"].axes["time"]
     expected = np.array([of_walkers(time, 1) for time in times])
-    assert np.abs(scores(result["heat_variance"], expected)).max() < 4
+    assert np.abs(scores(result["mean_square_heat"], expected)).max() < 4
     # Detected mistakes: windows that are 5 % longer; a probability that is 25 % smaller.
     longer = np.array([of_walkers(1.05 * time, 1) for time in times])
     rarer = np.array([of_walkers(time, 0.75) for time in times])
-    assert np.abs(scores(result["heat_variance"], longer)).max() > 6
-    assert np.abs(scores(result["heat_variance"], rarer)).max() > 6
+    assert np.abs(scores(result["mean_square_heat"], longer)).max() > 6
+    assert np.abs(scores(result["mean_square_heat"], rarer)).max() > 6
 
 
 def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:
     """The fit is y/t = 4.5 A t^(1/3) + 2D with weights 1/(y² t)·t² in units of T and λ."""
     result = heat_current(**LONGER, sigma=0.5)
-    heat = result["heat_variance"]
+    heat = result["mean_square_heat"]
     seen = heat.axes["time"] >= 0.1
     time, y = heat.axes["time"][seen] * np.sqrt(T) / LENGTH, heat.mean[seen] / (T * LENGTH) ** 2
 

@@ -59,7 +59,7 @@ def test_local_slope_is_at_the_middle_of_its_times(measure: Measure) -> None:
     """The last of the times is nearer to the one before than the others. Detected mistake: the middles are those
     of equal steps."""
     result = measure("displacement", **RING, decades=1.94, relaxation_time=3, observation_time=50)
-    variance, local = result["variance"], result["local_slope"]
+    variance, local = result["mean_square_displacement"], result["local_slope"]
     time = variance.axes["time"]
     assert time[-1] == 50
     np.testing.assert_allclose(local.axes["time"], middles(time), rtol=1e-14)
@@ -279,7 +279,7 @@ def test_moments_and_jump_of_the_flux(measure: Measure) -> None:
 def test_alpha_and_the_centre_of_a_pulse(measure: Measure) -> None:
     """Detected mistakes: alpha over another range of times; the centre has five cells on one side."""
     spread = measure("displacement", **RING, decades=3, relaxation_time=3, observation_time=50, fit_decades=1)
-    variance = spread["variance"]
+    variance = spread["mean_square_displacement"]
     time, late = variance.axes["time"], variance.axes["time"] >= 4.999
     assert spread["alpha"].mean == pytest.approx(slope(time[late], np.log(variance.mean[late])), rel=1e-9)
     pulse = measure("energy_pulse", cells=23, particles_per_cell=30, times="0.01,0.013")

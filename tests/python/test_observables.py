@@ -22,7 +22,7 @@ def test_displacement_begins_ballistically(measure: Measure) -> None:
     result = measure(
         "displacement", sigma=0.5, replicas=400, relaxation_time=0, observation_time=1e-4, decades=1
     )
-    variance = result["variance"]
+    variance = result["mean_square_displacement"]
     time = variance.axes["time"]
     z = (variance.mean / time**2 - 500) / (variance.standard_error / time**2)
     assert np.abs(z).max() < 4
@@ -37,9 +37,9 @@ def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
     also if scatterers move at the start. The corrected one has the smaller error."""
     moving = {"sigma": 0.8, "scatterer_temperature": 500}
     (reduced, error), (plain, plain_error) = (
-        over_seeds("displacement", seeds, "variance", **FEW, **moving, replicas=replicas)["variance"][
-            :, :, -1
-        ]
+        over_seeds("displacement", seeds, "mean_square_displacement", **FEW, **moving, replicas=replicas)[
+            "mean_square_displacement"
+        ][:, :, -1]
         for seeds, replicas in ((50, 40), (400, 8))
     )
 
@@ -59,12 +59,12 @@ def test_displacement_without_a_random_momentum_that_lasts(
     measure: Measure, options: dict[str, object]
 ) -> None:
     result = measure("displacement", **FEW, **options, replicas=20)
-    assert result["variance"].control_variates == 0
+    assert result["mean_square_displacement"].control_variates == 0
 
 
 def test_displacement_is_confined_between_walls(measure: Measure) -> None:
     """At sigma = 1 every particle is confined between two scatterers; at -1 it flies freely."""
-    confined = measure("displacement", sigma=1, observation_time=100, decades=2)["variance"]
+    confined = measure("displacement", sigma=1, observation_time=100, decades=2)["mean_square_displacement"]
     assert confined.mean.max() <= 1
     free = measure("displacement", sigma=-1, observation_time=100, decades=2)
     np.testing.assert_allclose(free["alpha"].mean, 2, atol=1e-9)

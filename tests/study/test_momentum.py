@@ -19,7 +19,7 @@ def test_momentum() -> None:
     def observed(series: str, a: float, **options: object) -> Result:
         exponent = ([1 + a, 1 + a], {"middle": octaves})
         heat = (time ** (1 + a), {"time": time})
-        return result(series, ring | options, "heat_current", heat_variance=heat, local_exponent=exponent)
+        return result(series, ring | options, "heat_current", mean_square_heat=heat, local_exponent=exponent)
 
     runs = [
         observed("thin", 0.3, rule="elastic"),
@@ -27,7 +27,7 @@ def test_momentum() -> None:
         observed("thin-reversal", 0.1, rule="reversal", reversal_probability=0.1),
         observed("dense", 0.25, rule="elastic", fugacity=2.0),
         result("gas-16", ring | {"fugacity": 1 / 3, "cell_length": 3.0, "temperature": 4.0, "rule": "elastic"},
-               "heat_current", heat_variance=([60.0, 90.0], {"time": [2.0, 5.0]}),
+               "heat_current", mean_square_heat=([60.0, 90.0], {"time": [2.0, 5.0]}),
                local_exponent=([1.4], {"middle": [3.0]})),
         *(result(f"deterministic_cells={n}", CHAIN | {"cells": n, "rule": "elastic"}, "conductivity", kappa_heat=7.0 * n,
                  temperature_first=90.0, temperature_last=110.0, stationary=1.0, stationarity_p_value=0.5)
@@ -62,7 +62,7 @@ def ring(times: list[float], error: float, power: float = 4 / 3, **options: obje
     parameters = {"temperature": 1.0, "cell_length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit_from": 2.0,
                   "rule": "elastic", "replicas": 64}  # fmt: skip
     quantities = {
-        "heat_variance": quantity(time**power, error, time=time),
+        "mean_square_heat": quantity(time**power, error, time=time),
         "local_exponent": quantity(np.full(len(middle), power), error, middle=middle),
     }
     return Result(ROOT, parameters | options, {}, quantities)

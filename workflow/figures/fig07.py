@@ -36,14 +36,18 @@ def zero(result: Result) -> bool:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time. The error of the fraction neglects the correlation of drift and variance: it is an
+    """One row per time. The error of the fraction neglects the correlation of both mean squares: it is an
     upper bound."""
-    variance, drift, slope = result["variance"], result["centre_of_mass_variance"], result["local_slope"]
-    columns = result.columns("variance", "centre_of_mass_variance")
+    square, drift, slope = (
+        result["mean_square_displacement"],
+        result["mean_square_drift"],
+        result["local_slope"],
+    )
+    columns = result.columns("mean_square_displacement", "mean_square_drift")
     run = {"cells": int(result.parameters["cells"]), "zero_total_momentum": zero(result)}
-    table = pd.DataFrame({"time": variance.axes["time"], **run, **columns})
-    table["fraction"] = drift.mean / variance.mean
-    relative = np.hypot(drift.error / drift.mean, variance.error / variance.mean)
+    table = pd.DataFrame({"time": square.axes["time"], **run, **columns})
+    table["fraction"] = drift.mean / square.mean
+    relative = np.hypot(drift.error / drift.mean, square.error / square.mean)
     table["fraction_error"] = table["fraction"] * relative
     table["slope_to_next"], table["slope_to_next_error"] = (
         np.append(values, np.nan) for values in (slope.mean, slope.error)
@@ -64,7 +68,7 @@ def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
 def weaker(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     """The ratio of the drifts in the shortest and in the longest ring."""
     drifts = [
-        (table.cells.iloc[-1], *table[["centre_of_mass_variance", "centre_of_mass_variance_error"]].iloc[-1])
+        (table.cells.iloc[-1], *table[["mean_square_drift", "mean_square_drift_error"]].iloc[-1])
         for result, table in zip(results, tables, strict=True)
         if not zero(result)
     ]
@@ -86,16 +90,22 @@ def draw(results: Sequence[Result]) -> Parts:
     for k, (result, table) in enumerate(zip(results, tables, strict=True)):
         look = ZERO if zero(result) else LOOKS[k % len(LOOKS)]
         name = f"$N = {table.cells.iloc[0]}$" + ", zero momentum" * zero(result)
-        above.errorbar(table.time, table.variance, table.variance_error, label=name, **look)
+        above.errorbar(
+            table.time,
+            table.mean_square_displacement,
+            table.mean_square_displacement_error,
+            label=name,
+            **look,
+        )
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
-            drift, error = table.centre_of_mass_variance, table.centre_of_mass_variance_error
+            drift, error = table.mean_square_drift, table.mean_square_drift_error
             above.plot(table.time, drift, color=look["color"], zorder=1)
             style.band(above, table.time, drift, error, look["color"])
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
-        guide = factor * table.variance.iloc[-1] * (late / last) ** power
+        guide = factor * table.mean_square_displacement.iloc[-1] * (late / last) ** power
         above.plot(late, guide, **style.GUIDE)
         name, lift = ("$t^2$", (-18, -2)) if power == 2 else ("$t$", (-8, -14))
         style.name_point(above, name, (last, guide.iloc[-1]), lift, ha="right")

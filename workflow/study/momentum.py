@@ -121,7 +121,7 @@ def draw(results: Sequence[Result]) -> Parts:
     sizes = compare([result for result in results if result not in of_rings], own)
     table = rings.tabulate([result for result in of_rings if result not in own])
     for column in ("spread", "spread_error"):
-        table[column] = table[column.replace("spread", "heat_variance")] / (2 * table.time)
+        table[column] = table[column.replace("spread", "mean_square_heat")] / (2 * table.time)
     broken = table[table.rule == "reversal"].iloc[-1]  # of the largest σ
     control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
     figure, axes = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))

@@ -37,7 +37,7 @@ def green_kubo(result: Result, temperature: float) -> tuple[int, float, float]:
     """N of the chain of fig. 8 that holds this gas, and its conductivity of heat per cell by Green and Kubo
     at the last time of the ring [eq. 61], with its error. temperature: of the chain, whose cells are 1/N
     long."""
-    heat, own = result["heat_variance"], chain(result)
+    heat, own = result["mean_square_heat"], chain(result)
     cells = round(SLOW_FLUX / own.zeta)
     unit = 2 * heat.axes["time"][-1] * own.cell_length * own.temperature**2.5 / (cells * temperature**0.5)
     return cells, float(heat.mean[-1] / unit), float(heat.error[-1] / unit)
@@ -54,13 +54,13 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     the last one of a ring."""
     tables = []
     for result in results:
-        heat, exponent, scaled = result["heat_variance"], result["local_exponent"], chain(result)
+        heat, exponent, scaled = result["mean_square_heat"], result["local_exponent"], chain(result)
         own: dict[str, Any] = dict(zip(GAS, gas(result), strict=True)) | {
             "zeta": scaled.zeta,
             "mass": scaled.mass,
         }
         own |= {"cells": result.parameters["cells"], "time": heat.axes["time"]}
-        table = pd.DataFrame(own | {"heat_variance": heat.mean, "heat_variance_error": heat.error})
+        table = pd.DataFrame(own | {"mean_square_heat": heat.mean, "mean_square_heat_error": heat.error})
         octaves = {"middle": exponent.axes["middle"], "local_exponent": exponent.mean}
         tables.append(table.join(pd.DataFrame(octaves | {"local_exponent_error": exponent.error})))
     return pd.concat(tables).sort_values([*GAS, "time"], ignore_index=True)

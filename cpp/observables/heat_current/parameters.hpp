@@ -73,7 +73,8 @@ struct Sound {
 
   static Sound of(const HeatCurrentParameters& parameters) {
     const double z = parameters.fugacity.value(), spacing = parameters.ring.cell_length;
-    const double a = z + 0.5 / spacing, rho = 2 * z + scatterer_mass(parameters.ring.scattering.sigma) / spacing;
+    const double a = z + 0.5 / spacing,
+                 rho = 2 * z + scatterer_mass(parameters.ring.scattering.sigma) / spacing;
     const double T = parameters.temperature;
     return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
   }
