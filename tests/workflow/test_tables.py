@@ -157,24 +157,22 @@ FRAME = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", "b"]})
 
 
 @pytest.mark.parametrize(
-    ("table", "remedy"),
+    "table",
     [
-        (FRAME.groupby("sigma").max(), "reset_index"),
-        (FRAME.groupby(["sigma", "label"]).sum(), "reset_index"),
-        (FRAME.set_axis(["x", "y"]), "reset_index"),
-        (FRAME.set_axis([0, 1], axis=1), "rename"),
-        (FRAME.groupby("label").agg(["min", "max"]).reset_index(), "rename"),
-        (FRAME.set_axis(["label", "label"], axis=1), "label"),
-        (FRAME.assign(label=["a # 1", "b"]), "#"),
-        (FRAME.rename(columns={"label": "#"}), "#"),
-        (FRAME.assign(label=["NA", "b"]), "label"),
-        (FRAME.assign(label=["null", "b"]), "label"),
-        (FRAME.assign(label=["", "b"]), "label"),
-        (FRAME.assign(sigma=[np.arange(2), np.arange(2)]), "explode"),
+        FRAME.groupby("sigma").max(),
+        FRAME.groupby(["sigma", "label"]).sum(),
+        FRAME.set_axis(["x", "y"]),
+        FRAME.set_axis([0, 1], axis=1),
+        FRAME.groupby("label").agg(["min", "max"]).reset_index(),
+        FRAME.set_axis(["label", "label"], axis=1),
+        FRAME.rename(columns={"label": "#"}),
+        FRAME.assign(sigma=[np.arange(2), np.arange(2)]),
+        *(FRAME.assign(label=[word, "b"]) for word in ("a # 1", "NA", "null", "")),
+        FRAME.assign(sigma=[1j, 2]),
     ],
-)  # fmt: skip
-def test_a_table_that_its_csv_would_not_hold_is_refused(table: pd.DataFrame, remedy: str) -> None:
-    with pytest.raises(TableError, match=remedy):
+)
+def test_a_table_that_its_csv_would_not_hold_is_refused(table: pd.DataFrame) -> None:
+    with pytest.raises(TableError):
         as_csv(table, {"sigma": "1"})
 
 
@@ -188,8 +186,6 @@ def test_labels_stay_apart_and_numbers_have_one_kind() -> None:
     read = pd.read_csv(io.StringIO(text))
     assert read.label.nunique() == len(labels)
     assert read[["sigma", "count"]].equals(table[["sigma", "count"]])
-    with pytest.raises(TableError, match="complex"):
-        as_text(pd.DataFrame({"label": [1j]}))
 
 
 @pytest.mark.parametrize("panel", sorted(SHIPPED))

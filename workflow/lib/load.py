@@ -16,9 +16,9 @@ import numpy as np
 if TYPE_CHECKING:
     import pandas as pd
 
-from workflow.lib.fit import format_with_error
 from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of, series_of
 from workflow.lib.suggestion import suggestion
+from workflow.lib.text import format_with_error
 from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"

@@ -16,9 +16,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.figure import PHYSICS, Parts, plots
-from workflow.lib.fit import format_with_error
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_with_error
 from workflow.study import rings
 
 TITLE = "Heat transport with and without conserved momentum"
@@ -132,7 +132,7 @@ SERIES = "light light-long light-longest dense-longest dilute-longest sparse-lon
 SERIES += "chain-rotation chain-reversal deterministic deterministic-large"
 
 
-@plots(SERIES, varying=" ".join(PHYSICS))
+@plots(SERIES)
 def draw(results: Sequence[Result]) -> Parts:
     of_rings = [result for result in results if result.provenance["program"] == "heat_current"]
     chains = tabulate([result for result in results if result not in of_rings])

@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from workflow.lib.caption import scientific
 from workflow.lib.fit import local_exponents
 from workflow.lib.identity import panel_of
 from workflow.lib.load import Index, Result
+from workflow.lib.text import scientific
 from workflow.study.fit import PowerLaw, fit_power
 from workflow.study.verdict import Estimate
 
