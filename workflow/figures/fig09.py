@@ -80,17 +80,26 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
     speed.errorbar(rate.axes["middle"], rate.mean, rate.error, **look_of(result))
 
 
+def speeds(result: Result) -> tuple[str, str] | tuple[None, None]:
+    """The first and the last speed of the peak that are known."""
+    speed = result["peak_speed"]
+    known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
+    if not len(known):
+        return None, None
+    return format_quantity(speed, known[0]), format_quantity(speed, known[-1])
+
+
 def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     rest = results[0]
-    speed = rest["peak_speed"]
-    known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
-    first, last = (format_quantity(speed, index) for index in known[[0, -1]]) if len(known) else (None, None)
+    first, last = speeds(rest)
     peaks = (
         "two peaks of almost constant speed" if rest.parameters["gamma"] == "N" else "peaks of constant speed"
     )
     sound = "; (d) sound in the ring from rest" if with_sound(rest) else ""
     faint = "Faint: after both sides of the pulse have met. " if table.ring_closed.any() else ""
-    height = table[(table.distance == 0) & (table.scatterer_temperature == str(start(rest)))].energy_difference.max()
+    height = table[
+        (table.distance == 0) & (table.scatterer_temperature == str(start(rest)))
+    ].energy_difference.max()
     spike = f"{height / 1e3:.0f}" if height > FRAME * np.nanmax(rest["peak"].mean) else None
     text = f"""The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. (a) The central cell reaches {{spike}}·10³. (c), (d) Position and
         speed of the moving peak. {named_start(rest).capitalize()}, the speed is {{first}} cells per time

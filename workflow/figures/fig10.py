@@ -84,18 +84,22 @@ def guides(results: Sequence[Result]) -> Guides:
     return SLOPES.get(run_parameters.gamma(results[0]), {}) if holds(results) else {}
 
 
+def exponents(result: Result) -> list[str]:
+    """The exponents of all octaves with a moving peak."""
+    found = by_octave(result).dropna(subset="octave_exponent")
+    return [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
+
+
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]
     law = "t^(−2/3)" if run_parameters.gamma(rest) == "N" else "t^(−1)"
-    found = by_octave(rest).dropna(subset="octave_exponent")
-    texts = [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
+    first, *last = exponents(rest) or [None]
     names = {-2 / 3: "2/3 (sound)", -1 / 2: "1/2 (shock)", -1: "1"}
     laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
         Exponents fitted over successive octaves of time; {named_start(rest)} the first is {{first}}. The
         last is {{last}}. Dashed guides, which are not fits, have the exponents {{laws}}."""
-    first, last = (texts[0], texts[-1]) if texts else (None, None)
-    return Caption(text, first=first, last=last if len(texts) > 1 else None, laws=laws)
+    return Caption(text, first=first, last=last[-1] if last else None, laws=laws)
 
 
 def draw(results: Sequence[Result]) -> Parts:

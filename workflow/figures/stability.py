@@ -31,7 +31,7 @@ LIMITS = {  # series in the order of the panel, with the parameter that is extre
     "wide": ("cell_length", r"\lambda"),
 }
 BAR = 2  # standard errors
-EXTREME = 1e-5  # largest distance of γ from 0, or of σ from −1, 0 or 1, in limits with a known current
+EXTREME = 1e-2  # largest distance of γ from 0, or of σ from −1, 0 or 1, in limits with a known current
 
 
 def collisions(result: Result) -> float:

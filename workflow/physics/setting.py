@@ -43,8 +43,8 @@ def sentences(results: Sequence[Result], panel: str, script: str) -> str:
     several = len({panel_of(result.path) for result in results}) > 1
     for result in results:
         series = f"{panel_of(result.path)}/{result.series}" if several else result.series
-        general, own = _expected(result, panel, script)
-        for name, value in _model(result, general).items():
+        general, own = expected(result, panel, script)
+        for name, value in model(result, general).items():
             having[name].add(series)
             allowed = [*general.get(name, []), *own.get(name, [])]
             if not (_agrees(value, allowed) if allowed else _is_default(result, name)):
@@ -70,7 +70,7 @@ def require_one_value(results: Sequence[Result], panel: str, script: str) -> Non
     of_all = paper | choices.get(ALL, {})
     varying = {name for name, stated in of_all.items() if stated is AXIS or len(stated) > 1}
     varying |= {name for series, stated in choices.items() if series != ALL for name in stated}
-    for name in {name for result in results for name in _model(result, {})} - varying:
+    for name in {name for result in results for name in model(result, {})} - varying:
         given = [result.parameters for result in results if name in result.parameters]
         values = {parameters[name] for parameters in given}
         if name == "cell_length" and not any(isinstance(value, str) for value in values):
@@ -89,7 +89,7 @@ def _entry(table: Mapping[str, Any], *names: str) -> Any:
     return next((table[key] for name in names for key in (name, name[:5]) if key in table), {})
 
 
-def _expected(result: Result, panel: str, script: str) -> tuple[Stated, Stated]:
+def expected(result: Result, panel: str, script: str) -> tuple[Stated, Stated]:
     """Expected values of the parameters: those of all series, and those of the series of a result. Results of
     another panel have its own."""
     names = (panel_of(result.path), panel, script)
@@ -98,7 +98,7 @@ def _expected(result: Result, panel: str, script: str) -> tuple[Stated, Stated]:
     return general, choices.get(result.series, {})
 
 
-def _model(result: Result, stated: Stated) -> dict[str, Any]:
+def model(result: Result, stated: Stated) -> dict[str, Any]:
     """The parameters of the model, and others that are stated. Those of a rule are in its name."""
     roles = result.parameter_roles
     names = [name for name in result.parameters if roles.get(name) == "physics" or name in stated]
@@ -108,9 +108,7 @@ def _model(result: Result, stated: Stated) -> dict[str, Any]:
 
 def rule(result: Result) -> str:
     """The collision rule with the values of its options: `reversal (0.03)`."""
-    own = [
-        format_number(result.parameters[name]) for name in result.parameter_rules if name in result.parameters
-    ]
+    own = [f"{result.parameters[name]:g}" for name in result.parameter_rules if name in result.parameters]
     name = str(result.parameters["rule"])
     return f"{name} ({', '.join(own)})" if own else name
 
@@ -133,16 +131,16 @@ def _differences(
     for series, values in by_series.items():
         groups[frozenset(values)].append(series)
     for same, names in groups.items():
-        paper = f" (paper: {_as_list(stated)})" if stated and name != "rule" else ""
+        paper = f" (paper: {as_list(stated)})" if stated and name != "rule" else ""
         where = f" in {quoted(names)}" if {*names} != having else ""
         yield f"{_equation(name, same)}{paper}{where}"
 
 
 def _equation(name: str, values: Collection[Any]) -> str:
-    return f"{SYMBOLS.get(name, name.replace('_', '-'))}{' ' if name == 'rule' else ' = '}{_as_list(values)}"
+    return f"{SYMBOLS.get(name, name.replace('_', '-'))}{' ' if name == 'rule' else ' = '}{as_list(values)}"
 
 
-def _as_list(values: Collection[Any]) -> str:
+def as_list(values: Collection[Any]) -> str:
     """Numbers in ascending order, then words; ends and number of many."""
     words = {str(value).lower() if isinstance(value, bool) else value for value in values}
     numbers = [*map(format_number, sorted(value for value in words if not isinstance(value, str)))]
