@@ -19,10 +19,9 @@ from workflow.physics.paper import AXIS, BATHS, CHOICES, PAPER
 from workflow.pipeline.described import options_of_programs
 from workflow.pipeline.plan import Panel, Plan, Run
 
-SHIPPED = {path.stem for path in (ROOT / "docs/gallery").glob("*.png")}
-PANELS = {
-    panel.name: panel for panel in Plan("paper") if panel.name in SHIPPED - {"verdicts"} and panel.plotted
-}
+FILES = ("paper.yaml", "study.yaml")  # panels of other files are the user's own
+PLOTTED = [panel for panel in Plan("paper") if panel.file.name in FILES and panel.plotted]
+PANELS = {panel.name: panel for panel in PLOTTED if panel.name != "verdicts"}
 WORDS = {"start": "cold", "scatterer_temperature": 300.0, "cell_length": 0.1, "gamma": 7.0, "cells": 9}
 MOST = 25  # words of the parameters of a shipped panel
 

@@ -24,7 +24,7 @@ NAMES = {symbol: name for name, symbol in SYMBOLS.items()}
 VALUE = r"−?(?:\d+(?:\.\d+)?(?:/\w+)?|N)(?!\d|\.\d|/|\(\d| (?:[%s=\\]|at )|\^|·)"
 STATEMENT = re.compile(rf"(?<![\w|])({'|'.join(NAMES)}) [=≤] ({VALUE}(?:(?:, | and ){VALUE})*)")
 TEX = {"$": "", r"\sigma": "σ", r"\gamma": "γ", r"\lambda": "λ", r"\nu": "ν"}
-NUMBER = re.compile(r"(?<![\w.^(−⁻|])−?\d+(?:\.\d+)?(?:·10[⁻\w]+)?(?![\w⁻(/]|\.\d)")
+NUMBER = re.compile(r"(?<![\w.^(−⁻|/])−?\d+(?:\.\d+)?(?:·10[⁻\w]+)?(?![\w⁻(/]|\.\d)")
 # Numbers of the paper, of methods and of symbols, by panel: 0.1 %, x = 0, 1 % of the largest F, |σ| ≤ 0.9 ...
 FIXED = {"fig02_upper": "1", "fig02_lower": "1", "fig03": "0 1", "fig03_inset": "0 0.1 0.01 1", "fig04a": "0"}
 FIXED |= {
@@ -83,7 +83,7 @@ def drawn(folder: Path, panel: str, number: float = 0) -> tuple[Figure, str, lis
 def test_every_number_of_captions_and_labels_is_that_of_the_results(smoke: Path, panel: str) -> None:
     """All parameters of the results are changed, and the values of their quantities. Detected mistakes: n = 320, σ
     = 0.99 or γ = 10⁻³ as literals in captions, n = 20 or γ = 1 in legends."""
-    figure, caption, results = drawn(smoke, panel)
+    figure, _, results = drawn(smoke, panel)
     labels = " ; ".join(text.get_text() for text in figure.findobj(Text))
     for tex, text in TEX.items():
         labels = labels.replace(tex, text)

@@ -39,8 +39,8 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     far = table.loc[table.particle_minus_scatterer.abs().idxmax()]
     text = """The paper finds one temperature of scatterers and particles, which does not reach the baths.
         (a) Points: scatterers; lines: particles. The first scatterer has {first}. (b) Their difference,
-        measured in the same runs, is largest at γ = {gamma}, x = {x}."""
-    return Caption(text, first=first, gamma=far.gamma, x=f"{far.x:.3g}")
+        measured in the same runs, is largest at γ = {gamma}."""
+    return Caption(text, first=first, gamma=far.gamma)
 
 
 @plots("deterministic rare")

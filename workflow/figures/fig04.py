@@ -135,9 +135,9 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
     claim = "follows the kinetic equation, with a jump at p = 0"
     if main.gamma.iloc[0] == "N":
         claim = "has small jumps at p = 0"
-    text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a) Points: chain; lines:
-        kinetic equation. (b) Its centre. (c) Points minus lines, at most {{largest}} % of the largest F.
-        (d) Jumps at p = 0, of the chain and by the kinetic equation (bars)."""
+    text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a), (b) Points: chain;
+        lines: kinetic equation. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
+        at p = 0, of the chain and by the kinetic equation (bars)."""
     largest = f"{math.ceil(10 * far) / 10:g}" if math.isfinite(far) else None
     return Caption(text, largest=largest)
 

@@ -1,5 +1,5 @@
 """Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum,
-with none, and with random directions after collisions, of the paper's footnote. The table also has other
+with none, and with random directions, of the paper's footnote. The table also has other
 relaxation times.
 """
 
@@ -71,7 +71,7 @@ def caption(shown: pd.DataFrame) -> str:
     least, most = (extreme(shown[shown.kind == kind], row) for kind, row in ((PAPERS, 0), (ZERO, -1)))
     text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) At the paper's random total
         momentum α is at least {least} for σ ≠ 0. (b) At zero total momentum, without drift of the ring,
-        it is at most {most}. Diamonds: random directions after collisions, as in the paper's footnote."""
+        it is at most {most}. Diamonds: random directions, as in the paper's footnote."""
     return Caption(text, least=least, most=most)
 
 

@@ -101,9 +101,10 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
         (table.distance == 0) & (table.scatterer_temperature == str(start(rest)))
     ].energy_difference.max()
     spike = f"{height / 1e3:.0f}" if height > FRAME * np.nanmax(rest["peak"].mean) else None
-    text = f"""The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. (a) The central cell reaches {{spike}}·10³. (c), (d) Position and
-        speed of the moving peak. {named_start(rest).capitalize()}, the speed is {{first}} cells per time
-        at first and {{last}} at last. {faint}Dashed: (c) the first speed{sound}."""
+    text = f"""The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. (a) The central cell
+        reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
+        {named_start(rest).capitalize()}, the speed is {{first}} cells per time at first and {{last}} at
+        last. {faint}Dashed: (c) the first speed{sound}."""
     return Caption(text, first=first, last=last, spike=spike)
 
 
