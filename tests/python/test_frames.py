@@ -1,4 +1,5 @@
-"""Nothing that is plotted is lost in silence: points outside of frames, series without a look, undefined values."""
+"""Nothing that is plotted is lost in silence: points outside of frames, undefined values, series without a
+look."""
 
 import json
 import subprocess

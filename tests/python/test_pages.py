@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.caption import BATHS
-from workflow.physics.paper import PAPER
+from workflow.physics.paper import BATHS, PAPER
 from workflow.pipeline.described import options_of_programs
 
 

@@ -55,8 +55,8 @@ def text_of(panel: Panel, results: Sequence[Result]) -> str:
     """The sentences of the renderer. Raises TheoryError."""
     stem = Path(panel.script).stem
     if isinstance(script_of(panel).draw, Plot):
-        setting.require_one_value(results, panel.name, stem)
-    return setting.sentences(results, panel.name, stem)
+        setting.require_one_value(results, stem)
+    return setting.sentences(results, stem)
 
 
 def with_another(result: Result, name: str) -> Result:
@@ -100,9 +100,9 @@ def states(text: str, results: Iterable[Result], name: str) -> bool:
 
 @pytest.mark.parametrize("name", PANELS)
 def test_every_change_of_the_model_is_stated_or_refused(name: str) -> None:
-    """Each option of the model is changed, in each series alone and in all together. Detected mistakes: fig. 8
-    with the rule that ends the growth of κ, fig. 6 with scatterers of another temperature, fig. 7 without zero
-    momentum in the series of this name, and captions that do not say so."""
+    """Each option of the model is changed, in each series alone and in all together. Detected mistakes:
+    fig. 8 with the rule that ends the growth of κ, fig. 6 with scatterers of another temperature, fig. 7
+    without zero momentum in the series of this name, and captions that do not say so."""
     panel = PANELS[name]
     plotted, number = shown(panel), 0
     every = {result.series for result in plotted}
@@ -129,7 +129,7 @@ def test_every_change_of_the_model_is_stated_or_refused(name: str) -> None:
 
 def is_axis(panel: Panel, result: Result, option: str) -> bool:
     """Whether a figure has the option as an axis, or tells its values apart by labels."""
-    general, own = setting.expected(result, panel.name, Path(panel.script).stem)
+    general, own = setting.expected(result, Path(panel.script).stem)
     return AXIS in (general.get(option), own.get(option))
 
 
@@ -203,4 +203,4 @@ def test_a_panel_plots_one_value_of_what_it_does_not_tell_apart(script: str, nam
     """Detected mistakes: slopes between runs of different sigma; a theory for other parameters."""
     runs = [Result(ROOT, {name: value}, {}, {}, parameter_roles={name: "physics"}) for value in (1, 2)]
     with pytest.raises(TheoryError, match=rf"plots one {name.replace('_', '-')}, and the runs have 1 and 2"):
-        setting.require_one_value(runs, script, script)
+        setting.require_one_value(runs, script)

@@ -81,8 +81,8 @@ def drawn(folder: Path, panel: str, number: float = 0) -> tuple[Figure, str, lis
 
 @pytest.mark.parametrize("panel", OF_RUNS)
 def test_every_number_of_captions_and_labels_is_that_of_the_results(smoke: Path, panel: str) -> None:
-    """All parameters of the results are changed, and the values of their quantities. Detected mistakes: n = 320, σ
-    = 0.99 or γ = 10⁻³ as literals in captions, n = 20 or γ = 1 in legends."""
+    """All parameters of the results are changed, and the values of their quantities. Detected mistakes: n =
+    320, σ = 0.99 or γ = 10⁻³ as literals in captions, n = 20 or γ = 1 in legends."""
     figure, _, results = drawn(smoke, panel)
     labels = " ; ".join(text.get_text() for text in figure.findobj(Text))
     for tex, text in TEX.items():

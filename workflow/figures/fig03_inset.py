@@ -49,15 +49,13 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     style.against_size(axes, points.cells)
     axes.set_yscale("log")
     axes.margins(y=0.25)  # room for the legend
-    readings: list[tuple[float, str, style.Look]] = [
-        (1, r"of $\max F$", {}),
-        (1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}),
-    ]
+    units: list[tuple[float, str, style.Look]] = [(1, r"of $\max F$", {})]
+    units.append((1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}))
     for height, name in LIMITS:
-        for scale, reading, look in readings:
+        for scale, unit, look in units:
             axes.axhline(height * scale, **style.GUIDE | look)
             place: style.Look = {"transform": axes.get_yaxis_transform(), "va": "bottom", "ha": "center"}
-            axes.text(0.5, height * scale, f"{name} {reading}", size=style.label_size(), **place, **look)
+            axes.text(0.5, height * scale, f"{name} {unit}", size=style.label_size(), **place, **look)
     axes.set(ylabel=r"$|F_N - F|\,/\,\max F$")
     style.second_axis(axes, printed, r"$|F_N - F|$ at $\int F\,dp = 1$")
     axes.legend(loc="upper right")

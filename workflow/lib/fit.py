@@ -5,8 +5,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 
-
-
 def local_slopes(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Middle, slope and its error from every point to the next, in the order of the points; NaN for those
     without a value and for the last."""

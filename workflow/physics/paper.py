@@ -39,17 +39,13 @@ NO_MOMENTUM: Stated = {"zero_total_momentum": [True]}
 RATES: Stated = {"nu_left": [200], "nu_right": [200]}
 TEMPERATURES: Stated = {"temperature_left": [100], "temperature_right": [100]}
 LONG: Stated = {"scatterer_temperature": ["particles"], "relaxation_time": [0]}
+FROM_REST: Stated = {"scatterer_temperature": [0], "relaxation_time": [1, 100]}
 START: Stated = {"cell_length": [1], "pulse_cells": [1]}
 HEATED: Stated = {"temperature_left": [50], "temperature_right": [200], "gamma": ["N"]}
 DRIVEN = HEATED | {"nu_left": ["282.843"], "nu_right": ["141.421"], "cells": [32], "cell_length": [0.1]}
 DRIVEN |= {"sigma": [0.5]}
-LIMIT = HEATED | {
-    "nu_left": ["28.284"],
-    "nu_right": ["14.142"],
-    "cells": [4],
-    "cell_length": [1],
-    "sigma": [0],
-}
+LIMIT = HEATED | {"nu_left": ["28.284"], "nu_right": ["14.142"], "cells": [4], "cell_length": [1]}
+LIMIT |= {"sigma": [0]}
 RINGS = ["light", "light-long", "light-longest", "dense-longest", "dilute-longest", "sparse-longest"]
 RINGS += ["rotation", "reversal"]
 RING_GAS: Stated = {"cells": [160, 646, 2272, 3072, 3360, 5168], "cell_length": [1], "temperature": [1]}
@@ -87,14 +83,8 @@ CHOICES: dict[str, dict[str, Stated]] = {
         "random": {"rule": ["random-direction"], "relaxation_time": [1000]},
     },
     "fig08": {ALL: {"cells": AXIS}},
-    "fig09a": {ALL: START, "rest": {"scatterer_temperature": [0], "relaxation_time": [1]}, "gaussian": LONG},
-    "fig09b": {
-        ALL: START,
-        "rest": {"scatterer_temperature": [0], "relaxation_time": [100]},
-        "gaussian": LONG,
-    },
-    "fig10a": {ALL: START, "long": LONG | {"cells": [301]}},
-    "fig10b": {ALL: START, "long": LONG | {"cells": [1001]}},
+    "fig09": {ALL: START, "rest": FROM_REST, "gaussian": LONG},
+    "fig10": {ALL: START, "long": LONG | {"cells": [301, 1001]}},
     "momentum": dict.fromkeys(RINGS, RING_GAS) | dict.fromkeys(("chain-rotation", "chain-reversal"), NOISY),
     "accuracy": dict.fromkeys(("reference", "cold", "warm"), DRIVEN)
     | {"kinetic": UNEQUAL | {"sigma": [0.5], "gamma": [1, 50]}},

@@ -33,17 +33,17 @@ SYMBOLS = {
 FEW = 4  # values that are named one by one
 
 
-def sentences(results: Sequence[Result], panel: str, script: str) -> str:
+def sentences(results: Sequence[Result], script: str) -> str:
     """What the plotted results of a panel have: `σ = 1/2, N = 11, the paper's baths.`, and what differs: `Not
     the paper's: N = 3 (paper: 11) in `young`.`"""
-    paper, choices = _entry(PAPER, panel, script), _entry(CHOICES, panel, script)
+    paper, choices = _entry(PAPER, script), _entry(CHOICES, script)
     common: dict[str, set[Any]] = defaultdict(set)
     differing: dict[str, dict[str, set[Any]]] = defaultdict(lambda: defaultdict(set))  # by name and series
     having: dict[str, set[str]] = defaultdict(set)  # series with a parameter
     several = len({panel_of(result.path) for result in results}) > 1
     for result in results:
         series = f"{panel_of(result.path)}/{result.series}" if several else result.series
-        general, own = expected(result, panel, script)
+        general, own = expected(result, script)
         for name, value in model(result, general).items():
             having[name].add(series)
             allowed = [*general.get(name, []), *own.get(name, [])]
@@ -63,10 +63,10 @@ def sentences(results: Sequence[Result], panel: str, script: str) -> str:
     return f"{text} Not the paper's: {'; '.join(unlike)}.".lstrip() if unlike else text
 
 
-def require_one_value(results: Sequence[Result], panel: str, script: str) -> None:
+def require_one_value(results: Sequence[Result], script: str) -> None:
     """Raises TheoryError if runs differ in a parameter in which neither the paper's nor this project's do:
     they would be taken for one another, and theories for those of other parameters."""
-    paper, choices = _entry(PAPER, panel, script), _entry(CHOICES, panel, script)
+    paper, choices = _entry(PAPER, script), _entry(CHOICES, script)
     of_all = paper | choices.get(ALL, {})
     varying = {name for name, stated in of_all.items() if stated is AXIS or len(stated) > 1}
     varying |= {name for series, stated in choices.items() if series != ALL for name in stated}
@@ -89,10 +89,10 @@ def _entry(table: Mapping[str, Any], *names: str) -> Any:
     return next((table[key] for name in names for key in (name, name[:5]) if key in table), {})
 
 
-def expected(result: Result, panel: str, script: str) -> tuple[Stated, Stated]:
+def expected(result: Result, script: str) -> tuple[Stated, Stated]:
     """Expected values of the parameters: those of all series, and those of the series of a result. Results of
     another panel have its own."""
-    names = (panel_of(result.path), panel, script)
+    names = (panel_of(result.path), script)
     choices = _entry(CHOICES, *names)
     general = _entry(PAPER, *names) | choices.get(ALL, {})
     return general, choices.get(result.series, {})

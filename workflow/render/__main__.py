@@ -44,25 +44,25 @@ def render(
         raise EditedError(f"{', '.join(sources)}: one of these was edited meanwhile: repeat the command")
     paths = [*map(Path, results)]
     loaded = load_all(paths)
-    figure, csv, text = draw(script, panel, loaded)
+    figure, csv, text = draw(script, loaded)
     doubtful = {str(result.path): result.doubts for result in loaded if result.doubts}
     save(figure, csv, Path(stem), text, Parents(identity, paths, sources, doubtful))
 
 
-def draw(script: str, panel: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
-    """Figure, table as CSV, title and caption of a panel, which its script makes from results. Raises REFUSED."""
+def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
+    """Figure, table as CSV, title and caption of a panel from its script. Raises REFUSED."""
     module = import_module(script.removesuffix(".py").replace("/", "."))
     shown, others = loaded, []
     if isinstance(module.draw, Plot):
         shown, others = module.draw.shown(loaded), module.draw.not_shown(loaded)
-        setting.require_one_value(shown, panel, Path(script).stem)
+        setting.require_one_value(shown, Path(script).stem)
     style.apply()
     figure, table, caption = module.draw(loaded)
     units = getattr(module, "UNITS", {})
     errors = {f"{column}_error": text for column, text in units.items()}
     csv = as_csv(table, inherited(loaded) | errors | units)
     added = [f"Not shown: {quoted(others)}."] if others else []
-    added += [*outside(figure), *doubts(shown), setting.sentences(shown, panel, Path(script).stem)]
+    added += [*outside(figure), *doubts(shown), setting.sentences(shown, Path(script).stem)]
     whole = " ".join(" ".join([caption, *added]).split())
     return figure, csv, Text(module.TITLE, whole, getattr(caption, "numbers", {}))
 
