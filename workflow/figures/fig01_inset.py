@@ -81,12 +81,10 @@ def caption(chain: Result) -> str:
         times at which a line is fitted. At λ = {spacing} it has the slope {slope}. At λ = {spacing} n(t)
         is curved, d²n/d(ln t)² = {curvature}. Bottom: slope of n(t), and height of |p| n_t(|p|)
         (squares), {height} at last; both are equal in a filled chain."""
-    name, quantity = ("slope", "log_slope") if straight(chain) else ("curvature", "log_curvature")
-    numbers: dict[str, str | None] = {"slope": None, "curvature": None} | {
-        name: format_quantity(chain[quantity])
-    }
-    height = format_quantity(chain["plateau"], -1)
-    return Caption(text, spacing=run_parameters.spacing(chain)[1], height=height, **numbers)
+    slope = format_quantity(chain["log_slope"]) if straight(chain) else None
+    curvature = None if slope else format_quantity(chain["log_curvature"])
+    spacing, height = run_parameters.spacing(chain)[1], format_quantity(chain["plateau"], -1)
+    return Caption(text, spacing=spacing, slope=slope, curvature=curvature, height=height)
 
 
 @plots("unit-spacing unit-chain")

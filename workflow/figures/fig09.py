@@ -92,17 +92,14 @@ def speeds(result: Result) -> tuple[str, str] | tuple[None, None]:
 def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     rest = results[0]
     first, last = speeds(rest)
-    peaks = (
-        "two peaks of almost constant speed" if rest.parameters["gamma"] == "N" else "peaks of constant speed"
-    )
+    peaks = "two peaks of almost constant" if rest.parameters["gamma"] == "N" else "peaks of constant"
     sound = "; (d) sound in the ring from rest" if with_sound(rest) else ""
     faint = "Faint: after both sides of the pulse have met. " if table.ring_closed.any() else ""
-    height = table[
-        (table.distance == 0) & (table.scatterer_temperature == str(start(rest)))
-    ].energy_difference.max()
+    centre = table[(table.distance == 0) & (table.scatterer_temperature == str(start(rest)))]
+    height = centre.energy_difference.max()
     spike = f"{height / 1e3:.0f}" if height > FRAME * np.nanmax(rest["peak"].mean) else None
-    text = f"""The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. (a) The central cell
-        reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
+    text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. (a) The central
+        cell reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
         {named_start(rest).capitalize()}, the speed is {{first}} cells per time at first and {{last}} at
         last. {faint}Dashed: (c) the first speed{sound}."""
     return Caption(text, first=first, last=last, spike=spike)

@@ -99,7 +99,7 @@ def caption(results: Sequence[Result]) -> str:
     laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
         Exponents fitted over successive octaves of time; {named_start(rest)} the first is {{first}}. The
-        last is {{last}}. Dashed guides, which are not fits, have the exponents {{laws}}."""
+        last is {{last}}. Dashed guides, not fits: exponents {{laws}}."""
     return Caption(text, first=first, last=last if len(found) > 1 else None, laws=laws)
 
 

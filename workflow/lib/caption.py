@@ -22,15 +22,11 @@ class Caption(str):
         known = {name: number for name, number in numbers.items() if number is not None}
         sentences = re.split(r"(?<=\.)\s+", " ".join(text.split()))
         missing = numbers.keys() - known.keys()
-        kept = [sentence.format(**known) for sentence in sentences if not missing & {*names_in(sentence)}]
+        names = {one: {name for _, name, *_ in Formatter().parse(one)} for one in sentences}
+        kept = [sentence.format(**known) for sentence in sentences if not missing & names[sentence]]
         caption = super().__new__(cls, " ".join(kept))
         caption.numbers = known
         return caption
-
-
-def names_in(text: str) -> Iterable[str]:
-    """The names of the numbers of a format."""
-    return (name for _, name, *_ in Formatter().parse(text) if name)
 
 
 def quoted(names: Iterable[str]) -> str:
