@@ -1,13 +1,10 @@
 """Collision rules of the programs: exact results, and combinations of options that are refused."""
 
-import importlib
-
 import numpy as np
 import pytest
 
-from tests.python.conftest import ROOT, Measure, Program
-from workflow.lib.figure import TheoryError
-from workflow.lib.load import Quantity, Result
+from tests.python.conftest import Measure, Program
+from workflow.lib.load import Quantity
 
 UNEQUAL = {"nu_left": 30, "nu_right": 10, "temperature_left": 100, "temperature_right": 400}
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
@@ -101,23 +98,3 @@ def test_what_programs_refuse_of_a_rule(program: Program, rule: dict[str, object
         zero = {"zero_total_momentum": True} if other == "persistence" else {}
         done = program(other, sigma=sigma, **rule, **zero)
         assert done.returncode in ((0, 4) if expected else (2,)), (other, done.stderr)
-
-
-@pytest.mark.parametrize("script", ["fig05", "fig03_inset"])
-def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> None:
-    draw = importlib.import_module(f"workflow.figures.{script}").draw
-    with pytest.raises(
-        TheoryError, match=r"holds for elastic collisions only, and .* has the rule random-direction"
-    ):
-        draw([Result(ROOT, {"rule": "random-direction", "nu_left": 1}, {}, {})])
-
-
-@pytest.mark.parametrize(
-    ("script", "name"),
-    [("fig08", "sigma"), ("fig04", "sigma"), ("fig03_inset", "nu_left"), ("fig06", "particles_per_cell")],
-)
-def test_a_panel_plots_one_value_of_what_it_does_not_tell_apart(script: str, name: str) -> None:
-    """Detected mistakes: slopes between runs of different sigma; a theory for other parameters."""
-    draw = importlib.import_module(f"workflow.figures.{script}").draw
-    with pytest.raises(TheoryError, match=rf"plots one {name.replace('_', '-')}, and the runs have 1 and 2"):
-        draw([Result(ROOT, {name: value}, {}, {}) for value in (1, 2)])

@@ -12,13 +12,14 @@ from tests.python.conftest import ROOT, command_line
 from workflow.lib.caption import DOUBTS
 from workflow.lib.identity import sha256
 from workflow.lib.load import NOT_TESTED, load
+from workflow.lib.text import format_quantity
 from workflow.render.record import SHARED, panel_identity, read_identity_line, sources_of_panel
 
 
 def render(script: str, stem: Path, paths: list[Path]) -> None:
     job = {"script": f"workflow/figures/{script}.py", "stem": str(stem), "results": [*map(str, paths)]}
-    command = [sys.executable, "-m", "workflow.render", json.dumps(job)]
-    subprocess.run(command, cwd=ROOT, check=True)
+    command = [sys.executable, "-m", "workflow.render"]
+    subprocess.run(command, cwd=ROOT, check=True, input=json.dumps(job), text=True)
 
 
 def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: Path) -> None:
@@ -37,7 +38,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
     assert {read_identity_line(content) for content in contents.values()} == {("panel", "smoke", identity)}
     assert (record["panel"], record["quality"], record["identity"]) == ("panel", "smoke", identity)
     assert record["files"] == {kind: sha256(content) for kind, content in contents.items()}
-    assert record["parents"] == {str(path): sha256(path.read_bytes()) for path in paths} | sources
+    assert (record["parents"], record["sources"]) == ([*map(str, paths)], sources)
     assert {*sources} == {"workflow/figures/fig05.py", *SHARED}
 
     table = pd.read_csv(stem.with_suffix(".csv"), comment="#")
@@ -61,4 +62,21 @@ def test_doubts_about_the_results_of_other_panels(tmp_path: Path) -> None:
     stem = tmp_path / "smoke/panel"
     render("fig02_upper", stem, paths)
     (record,) = stem.parent.glob("panel.*.json")
-    assert DOUBTS[NOT_TESTED] + ": deterministic and rare." in json.loads(record.read_text())["caption"]
+    assert DOUBTS[NOT_TESTED] + ": `deterministic` and `rare`." in json.loads(record.read_text())["caption"]
+
+
+def test_another_collision_is_stated_in_all_files_and_numbers_have_names(tmp_path: Path) -> None:
+    path = tmp_path / "fig02_upper/rare.h5"
+    path.parent.mkdir()
+    options = {"cells": 4, "replicas": 4, "observation-time": 2, "rule": "reversal", "output": path}
+    subprocess.run(command_line("steady_profile", options | {"reversal-probability": 0.25}), check=True)
+    stem = tmp_path / "smoke/panel"
+    render("fig02_upper", stem, [path])
+    (record,) = stem.parent.glob("panel.*.json")
+    described = json.loads(record.read_text())
+    text = "λ = 1/N, the paper's baths. Not the paper's: N = 4 (paper: 30); rule reversal (0.25)."
+    assert described["caption"].endswith(text)
+    assert text in stem.with_suffix(".csv").read_text()
+    first = format_quantity(load(path)["temperature_scatterer"], 0)
+    assert described["numbers"]["first"] == f"{first} at γ = N"
+    assert described["numbers"]["first"] in described["caption"]

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from workflow.lib.fit import format_with_error, local_exponents
+from workflow.lib.fit import local_exponents
+from workflow.lib.text import format_with_error
 
 SIZE = np.array([4, 8, 16, 64, 256])
 

@@ -1,4 +1,5 @@
-"""Nothing that is plotted is lost in silence: points outside of frames, series without a look, undefined values."""
+"""Nothing that is plotted is lost in silence: points outside of frames, undefined values, series without a
+look."""
 
 import json
 import subprocess
@@ -14,10 +15,10 @@ from tests.python.conftest import ROOT, command_line
 from tests.python.plotted import CHAIN, draw, points, result
 from workflow.figures import accuracy, fig03_inset, fig09
 from workflow.lib import style
-from workflow.lib.caption import with_doubts
+from workflow.lib.caption import doubts
 from workflow.lib.figure import NoValueError
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION
-from workflow.render.frame import with_outside
+from workflow.render.frame import outside
 
 MANY = 7  # more than there are looks
 
@@ -32,13 +33,24 @@ def test_points_outside_of_the_frames_are_counted() -> None:
     above.plot(x, 100 * x, **style.GUIDE)
     above.axhline(50)
     above.set_ylim(1, 5)
-    assert with_outside("Text.", figure) == "Text. 2 points are outside the frames."
+    assert outside(figure) == ["2 points are outside the frames."]
     below.errorbar(x, -x + 1.5, 0.1, **style.points("o", style.BLUE))
     below.set(yscale="log")
-    assert with_outside("Text.", figure) == "Text. 6 points are outside the frames."
+    assert outside(figure) == ["6 points are outside the frames."]
     above.set_ylim(0, 10)
     below.set(yscale="linear")
-    assert with_outside("Text.", figure) == "Text."
+    assert outside(figure) == []
+    plt.close(figure)
+
+
+def test_points_of_insets_and_of_second_axes_are_counted() -> None:
+    figure, axes = plt.subplots()
+    inset, second = axes.inset_axes((0.6, 0.6, 0.3, 0.3)), axes.twinx()
+    for frame in (inset, second):
+        frame.plot([1, 2, 3], [1, 2, 30], "o")
+        frame.set_ylim(0, 5)
+    axes.secondary_yaxis("right")
+    assert outside(figure) == ["2 points are outside the frames."]
     plt.close(figure)
 
 
@@ -53,7 +65,7 @@ def test_the_frame_of_fig02_upper_follows_the_baths() -> None:
     }
     baths = {"temperature_left": 50.0, "temperature_right": 200.0}
     (above, _), _, _ = draw("fig02_upper", [result("deterministic", CHAIN | baths, **laws)])
-    assert with_outside("", above.figure) == ""
+    assert outside(above.figure) == []
     low, high = above.get_ylim()
     assert low < baths["temperature_left"]
     assert high > baths["temperature_right"]
@@ -80,6 +92,7 @@ def test_a_pulse_is_plotted_at_all_times_shown() -> None:
     times = np.linspace(0.01, 0.07, MANY)
     axes = {"time": times, "cell": np.arange(5.0)}
     laws = {"energy_difference": (np.ones((MANY, 5)), axes), "ring_closed": (np.zeros(MANY), {"time": times})}
+    laws["peak"] = (np.ones(MANY), {"time": times})
     _, panel = plt.subplots()
     fig09.draw_profiles(panel, result("rest", {"cells": 5, "scatterer_temperature": 0.0}, **laws), times)
     assert len(panel.get_lines()) == MANY
@@ -94,8 +107,10 @@ def test_a_panel_without_a_value_is_refused_in_one_line(tmp_path: Path) -> None:
     options |= {"temperature-left": 100, "temperature-right": 100}
     subprocess.run(command_line("conductivity", options), check=False, stderr=subprocess.DEVNULL)
     job = {"script": "workflow/figures/fig08.py", "stem": str(tmp_path / "fig08"), "results": [str(path)]}
-    command = [sys.executable, "-m", "workflow.render", json.dumps(job)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "workflow.render"]
+    done = subprocess.run(
+        command, cwd=ROOT, input=json.dumps(job), capture_output=True, text=True, check=False
+    )
     assert done.returncode == 1
     assert done.stderr.startswith("no value to draw: ")
     assert done.stderr.count("\n") == 1
@@ -105,9 +120,9 @@ def test_a_figure_with_undefined_and_other_points_is_drawn() -> None:
     figure, axes = plt.subplots()
     axes.plot([1, 2], [np.nan, np.nan], "o")
     with pytest.raises(NoValueError):
-        with_outside("Text.", figure)
+        outside(figure)
     axes.plot([1, 2], [np.nan, 1], "o")
-    assert with_outside("Text.", figure) == "Text."
+    assert outside(figure) == []
     plt.close(figure)
 
 
@@ -115,4 +130,4 @@ def test_a_run_without_a_value_is_named() -> None:
     """Detected mistake: a size is missing in fig. 8 without a word."""
     run = result("rare_cells=32", CHAIN, kappa=np.nan)
     run.provenance["target_quantity"] = "kappa"
-    assert with_doubts("Text.", [run]) == "Text. Without a value: rare_cells=32."
+    assert doubts([run]) == ["Without a value: `rare_cells=32`."]

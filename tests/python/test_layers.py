@@ -33,7 +33,7 @@ PYTHON = {
     "lib": set(),
     "physics": {"lib"},
     "figures": {"lib", "physics"},
-    "render": {"lib"},
+    "render": {"lib", "physics"},
     "pipeline": {"lib", "render"},
     "study": {"lib", "physics", "render", "pipeline"},
 }

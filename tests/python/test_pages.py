@@ -7,8 +7,7 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.described import options_of_programs
-from workflow.lib.caption import BATHS
-from workflow.physics.paper import PAPER
+from workflow.physics.paper import BATHS, PAPER
 
 
 def test_the_version_is_that_of_the_citation() -> None:

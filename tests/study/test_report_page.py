@@ -8,8 +8,8 @@ import pytest
 
 from tests.python.conftest import ROOT
 from workflow.lib.columns import TableError
-from workflow.lib.fit import format_with_error
 from workflow.lib.load import FormatError
+from workflow.lib.text import format_with_error
 from workflow.pipeline.plan import Plan
 from workflow.study import typeset
 from workflow.study.judge import Judgement, changed, read_claims

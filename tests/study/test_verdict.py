@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from workflow.lib.fit import format_with_error
+from workflow.lib.text import format_with_error
 from workflow.study.verdict import (
     Band,
     Estimate,

@@ -13,11 +13,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import format_number, listed
+from workflow.lib.caption import Caption
 from workflow.lib.figure import NoValueError, Parts
-from workflow.lib.fit import format_with_error
 from workflow.lib.identity import panel_of
 from workflow.lib.load import FormatError, Result, cost_file, cpu_seconds
+from workflow.lib.text import format_number, format_with_error, listed
 from workflow.physics import run_parameters
 
 TITLE = "Accuracy against time"
@@ -123,7 +123,7 @@ def draw_errors(axes: Axes, table: pd.DataFrame, lines: pd.DataFrame) -> None:
     axes.set_ylim(min(heights) / 3, 2 * max(heights))
     style.name_ends(axes, ends)
     ends = []
-    courses = kinetic.sort_values("cpu_seconds").groupby("gamma")
+    courses = kinetic.sort_values("error", ascending=False).groupby("gamma")  # in the order of the targets
     for (gamma, part), marker in zip(courses, cycle("sD^v"), strict=False):
         axes.plot(part.cpu_seconds, part.error, marker=marker, color=style.ORANGE)
         last = (part.cpu_seconds.iloc[-1], part.error.iloc[-1], style.ORANGE)
@@ -150,16 +150,16 @@ def draw_costs(axes: Axes, kappa: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame, lines: pd.DataFrame) -> str:
-    text = "(a) Errors (circles: spent here), extrapolated as 1/√(CPU time)"
-    for run in floors(table).head(1).itertuples():
-        text += f", do not reduce the bias of short relaxation (dashed, N = {run.cells:g})"
-    if "kinetic" in {*table.series}:
-        text += "; those of the kinetic equation fall faster"
+    sizes = floors(table).cells.unique()
     kappa = lines[lines.quantity == "kappa"]
-    costs = [float(f"{cost:.2g}") for cost in kappa.cost_of_1_percent]
-    at = [f"{cost:g} s at N = {cells:g}" for cost, cells in zip(costs, kappa.cells, strict=True)]
-    ends = [*dict.fromkeys([*at[:1], *at[-1:]])]
-    return f"{text}. (b) 1 % of κ costs {listed(ends)} (γ = {kappa.gamma.iloc[0]})." if ends else f"{text}."
+    costs = (f"{float(f'{cost:.2g}'):g}" for cost in kappa.cost_of_1_percent)
+    at = [f"{cost} s at N = {cells:g}" for cost, cells in zip(costs, kappa.cells, strict=True)]
+    ends = listed(dict.fromkeys([at[0], at[-1]])) if at else None
+    text = """(a) Relative errors and CPU times of simulations (circles), extrapolated as 1/√(CPU time),
+        and of the kinetic equation. Dashed (N = {biased}): bias of chains that relax for too short a
+        time, which no number of replicas reduces. (b) At γ = {gamma} an error of 1 % of κ costs {cost}."""
+    biased = listed(f"{size:g}" for size in sizes) if len(sizes) else None
+    return Caption(text, biased=biased, cost=ends, gamma=kappa.gamma.iloc[0] if at else None)
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -15,11 +15,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, parameters
-from workflow.lib.figure import Parts, plots
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_quantity
 from workflow.physics import run_parameters
-from workflow.physics.paper import PAPER
 
 TITLE = "Momentum distribution of the particles in a filling chain"
 UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
@@ -63,16 +63,15 @@ def number_bins(axes: Axes, result: Result) -> None:
     axes.secondary_xaxis("top", functions=scales).set_xlabel("bin number")
 
 
-def caption(results: Sequence[Result]) -> str:
-    chain = results[0]
-    columns = " Columns differ in λ, which the paper omits." if len(results) > 1 else ""
-    first, last = (style.format_quantity(chain["plateau"], k) for k in (0, -1))
-    return f"""
-        The paper finds |p| n_t(p) stationary above a front p_0(t). Here ({parameters(results, "cells", "sigma", *BATHS, paper=PAPER["fig01"])}) its
-        height at λ = {run_parameters.spacing(chain)[1]} (c) goes from {first} to {last}. (e), (f) Fronts over λ/et, that of a stationary flux.{columns}"""
+def caption(chain: Result) -> str:
+    first, last = (format_quantity(chain["plateau"], k) for k in (0, -1))
+    text = """The paper finds |p| n_t(p) stationary above a front p₀(t), which falls. Top: linear bins;
+        middle: logarithmic bins, with p₀(t) (circles). At λ = {spacing} the height above p₀ is {first} at
+        first and {last} at last. Bottom: p₀ over λ/et, its value for a stationary flux."""
+    return Caption(text, spacing=run_parameters.spacing(chain)[1], first=first, last=last)
 
 
-@plots("unit-spacing unit-chain", varying="cell_length")
+@plots("unit-spacing unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
     results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)
@@ -88,7 +87,8 @@ def draw(results: Sequence[Result]) -> Parts:
         middle.errorbar(front.front, front.plateau / np.e, xerr=front.front_error, **FRONT, label="$p_0(t)$")
         ratio = front.front / expected
         below.errorbar(front.time, ratio, front.front_error / expected, **FRONT)
-        below.axhline(1, **style.GUIDE)
+        if holds([result], gamma="N"):
+            below.axhline(1, **style.GUIDE)
         name = rf"$\lambda = {run_parameters.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel=r"$|p|\,n_t(p)$")
@@ -101,4 +101,4 @@ def draw(results: Sequence[Result]) -> Parts:
     style.letter(*rows[1:].flat, first=len(results))
     curves = rows[1, 0].get_legend_handles_labels()
     figure.legend(*curves, loc="outside upper center", ncols=3 * len(results) // 2)
-    return figure, pd.concat(tables), caption(results)
+    return figure, pd.concat(tables), caption(results[0])

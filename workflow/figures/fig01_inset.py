@@ -13,12 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, parameters
+from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import local_slopes
 from workflow.lib.load import Result
+from workflow.lib.text import format_quantity
 from workflow.physics import run_parameters
-from workflow.physics.paper import PAPER
 
 TITLE = "Number of particles in a filling chain"
 UNITS = {"slope": "1", "slope_time": "time", "number": "1", "number_fitted": "1"}
@@ -76,19 +76,18 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
 
 
-def caption(results: Sequence[Result]) -> str:
-    chain = results[0]
-    shape = "straight" if straight(chain) else "curved"
-    slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
-    fit = f"the line in (a) has the slope {slope}" if straight(chain) else "no line is fitted"
-    other = " (b), (d) Another spacing." if len(results) > 1 else ""
-    return f"""
-        The paper finds that n(t) grows as ln t. Here ({parameters(results, "cells", "sigma", *BATHS, paper=PAPER["fig01"])}), at λ =
-        {run_parameters.spacing(chain)[1]}, it is {shape} in ln t: {fit}. (c) Once the chain is
-        filled, slopes equal the height of |p| n_t(|p|), {height}.{other}"""
+def caption(chain: Result) -> str:
+    text = """The paper finds that the number n(t) of particles in a filling chain grows as ln t. Shaded:
+        times at which a line is fitted. At λ = {spacing} it has the slope {slope}. At λ = {spacing} n(t)
+        is curved, d²n/d(ln t)² = {curvature}. Bottom: slope of n(t), and height of |p| n_t(|p|)
+        (squares), {height} at last; both are equal in a filled chain."""
+    slope = format_quantity(chain["log_slope"]) if straight(chain) else None
+    curvature = None if slope else format_quantity(chain["log_curvature"])
+    spacing, height = run_parameters.spacing(chain)[1], format_quantity(chain["plateau"], -1)
+    return Caption(text, spacing=spacing, slope=slope, curvature=curvature, height=height)
 
 
-@plots("unit-spacing unit-chain", varying="cell_length")
+@plots("unit-spacing unit-chain")
 def draw(results: Sequence[Result]) -> Parts:
     results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)
@@ -103,4 +102,4 @@ def draw(results: Sequence[Result]) -> Parts:
             axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
     rows[1, 0].legend(loc="lower right", handletextpad=0.2)
     style.letter(*rows.flat)
-    return figure, pd.concat(tables), caption(results)
+    return figure, pd.concat(tables), caption(results[0])

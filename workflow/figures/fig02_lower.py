@@ -7,11 +7,11 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, listed, parameters
+from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_quantity, listed
 from workflow.physics import run_parameters
-from workflow.physics.paper import PAPER
 
 TITLE = "Density profiles"
 UNITS = dict.fromkeys(("x", "bulk", "relative"), "1")
@@ -31,16 +31,18 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def caption(results: Sequence[Result]) -> str:
-    excess = listed(
-        f"{style.format_quantity(result['density_excess'], int(result['density_excess'].mean.argmax()), 100)} % at γ = {run_parameters.gamma(result)}"
-        for result in results
-    )
-    return f"""
-        The paper finds that particles accumulate at the ends, more at γ = 1. Here ({parameters(results, "cells", "cell_length", *BATHS, paper=PAPER["fig02"])})
-        an end cell exceeds a line (b) by at most {excess}. (a) The offset is slow particles, 2ζ ln N."""
+    excess = []
+    for result in results:
+        end = int(result["density_excess"].mean.argmax())
+        percent = format_quantity(result["density_excess"], end, 100)
+        excess.append(f"{percent} % at γ = {run_parameters.gamma(result)}")
+    text = """The paper finds that particles accumulate at the ends of the chain, more at γ = 1. (a)
+        Particles per cell, with lines through the bulk (shaded). (b) The density over these lines: an end
+        cell exceeds them by at most {excess}."""
+    return Caption(text, excess=listed(excess))
 
 
-@plots("deterministic rare", varying="gamma")
+@plots("deterministic rare")
 def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(1.7, 1, height=1.5)
     tables = [tabulate(result) for result in results]

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, listed, parameters
+from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_quantity, listed
 from workflow.physics import run_parameters
-from workflow.physics.paper import PAPER
 
 TITLE = "Temperature profiles"
 UNITS = {"x": "1"} | dict.fromkeys(("scatterer", "particle", "particle_minus_scatterer"), "temperature")
@@ -31,20 +31,19 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def caption(results: Sequence[Result]) -> str:
+def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     first = listed(
-        f"{style.format_quantity(result['temperature_scatterer'], 0)} at γ = {run_parameters.gamma(result)}"
+        f"{format_quantity(result['temperature_scatterer'], 0)} at γ = {run_parameters.gamma(result)}"
         for result in results
     )
-    differences = pd.concat(tabulate(result) for result in results).reset_index(drop=True)
-    far = differences.loc[differences.particle_minus_scatterer.abs().idxmax()]
-    return f"""
-        The paper finds one temperature of scatterers and particles, which does not reach the baths. Here
-        ({parameters(results, "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig02"])}) the first scatterer has {first}.
-        (b) Both differ most at γ = {far.gamma}, in an end cell."""
+    far = table.loc[table.particle_minus_scatterer.abs().idxmax()]
+    text = """The paper finds one temperature of scatterers and particles, which does not reach the baths.
+        (a) Points: scatterers; lines: particles. The first scatterer has {first}. (b) Their difference,
+        measured in the same runs, is largest at γ = {gamma}."""
+    return Caption(text, first=first, gamma=far.gamma)
 
 
-@plots("deterministic rare", varying="gamma")
+@plots("deterministic rare")
 def draw(results: Sequence[Result]) -> Parts:
     figure, (above, below) = style.stacked(2, 1, height=1.6, width=1.1)
     tables = [tabulate(result) for result in results]
@@ -70,4 +69,5 @@ def draw(results: Sequence[Result]) -> Parts:
     below.axhline(0, **style.GUIDE)
     below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
-    return figure, pd.concat(tables), caption(results)
+    table = pd.concat(tables, ignore_index=True)
+    return figure, table, caption(results, table)

@@ -11,12 +11,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, listed, parameters
+from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_number
 from workflow.physics import run_parameters
 from workflow.physics.fluxes import reach
-from workflow.physics.paper import PAPER
 
 TITLE = "Momentum distribution of the particles at both ends, by the kinetic equation"
 UNITS = {"gaussian": "1/(time momentum)"}
@@ -62,16 +62,17 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
         look.pop("label", None)
 
 
-def caption(results: Sequence[Result], outgoing: float) -> str:
+def caption(results: Sequence[Result], largest: float) -> str:
     paper = next((result for result in results if case(result) == PAPERS), results[0])
-    jumps = listed(f"{paper['jump'].mean[index]:.4g} at {end}" for index, end, *_ in ENDS).replace("-", "−")
-    dotted = " (dotted: equal T, unequal rates)" if EQUAL in map(case, results) else ""
-    return f"""
-        The paper finds a jump of F(p, x) at p = 0. Here ({parameters([paper], "sigma", "gamma", *BATHS, paper=PAPER["fig03"])}) it is {jumps}.
-        (b) Where F exceeds {100 * OFTEN:g} % of its maximum, outgoing halves are up to {outgoing:.2g} % off a Gaussian{dotted}."""
+    left, right = (format_number(float(f"{paper['jump'].mean[index]:.4g}")) for index, *_ in ENDS)
+    text = f"""The paper finds that the momentum distribution F(p, x) jumps at p = 0. (a) At the ends it
+        jumps by {{left}} and {{right}}. (b) Each half over a Gaussian of its own rate and second moment,
+        where F exceeds {100 * OFTEN:g} % of its maximum: up to {{largest}} % off. Dotted: equal
+        temperatures, unequal rates."""
+    return Caption(text, left=left, right=right, largest=f"{largest:.2g}")
 
 
-@plots("paper equal", varying="temperature_left temperature_right")
+@plots("paper equal")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     shown = reach(results[0]["flux_density"])

@@ -13,12 +13,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import listed, parameters
-from workflow.lib.figure import Parts, plots, require_elastic
-from workflow.lib.fit import format_with_error
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, plots, require
 from workflow.lib.load import Result
+from workflow.lib.text import format_with_error, listed
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, amplitudes, at_centre, deviations, reach
-from workflow.physics.paper import PAPER
 
 TITLE = "Deviation of finite chains from the kinetic equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
@@ -50,37 +49,34 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     style.against_size(axes, points.cells)
     axes.set_yscale("log")
     axes.margins(y=0.25)  # room for the legend
-    readings: list[tuple[float, str, style.Look]] = [
-        (1, r"of $\max F$", {}),
-        (1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}),
-    ]
+    units: list[tuple[float, str, style.Look]] = [(1, r"of $\max F$", {})]
+    units.append((1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}))
     for height, name in LIMITS:
-        for scale, reading, look in readings:
+        for scale, unit, look in units:
             axes.axhline(height * scale, **style.GUIDE | look)
-            place: style.Look = {"transform": axes.get_yaxis_transform(), "va": "bottom"}
-            axes.text(0.03, height * scale, f"{name} {reading}", size=style.label_size(), **place, **look)
+            place: style.Look = {"transform": axes.get_yaxis_transform(), "va": "bottom", "ha": "center"}
+            axes.text(0.5, height * scale, f"{name} {unit}", size=style.label_size(), **place, **look)
     axes.set(ylabel=r"$|F_N - F|\,/\,\max F$")
     style.second_axis(axes, printed, r"$|F_N - F|$ at $\int F\,dp = 1$")
     axes.legend(loc="upper right")
 
 
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
-    printed = (table.absolute_as_printed / table.deviation).median()
-    points = amplitudes(table)
-    scale = 100 * printed
-    largest = [
+def caption(table: pd.DataFrame) -> str:
+    scale = 100 * (table.absolute_as_printed / table.deviation).median()
+    largest = listed(
         f"{format_with_error(scale * row.amplitude, scale * row.error)} % at N = {row.cells}"
-        for row in points.iloc[[0, -1]].itertuples()
-    ]
-    return f"""
-        The paper finds F_N − F, chain minus kinetic equation, below {LIMITS[0][1]}, and below {LIMITS[1][1]} in the longest chain.
-        Here ({parameters(runs, "sigma", "gamma", paper=PAPER["fig03_inset"])}) its maximum as p → 0, if ∫F dp = 1, is {listed(largest)} (c). Lines: mean field."""
+        for row in amplitudes(table).iloc[[0, -1]].itertuples()
+    )
+    bounds = dict(zip(("all", "longest"), (name for _, name in LIMITS), strict=True))
+    text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and below {longest} in
+        the longest chain. (a), (b) Particles that leave; lines: kinetic equation of N scatterers. (c) As
+        p → 0, if ∫F dp is 1: {largest}."""
+    return Caption(text, largest=largest, **bounds)
 
 
-@plots("simulation continuum mean-field", varying="cells")
+@plots("simulation continuum mean-field")
 def draw(results: Sequence[Result]) -> Parts:
-    require_elastic(results, "the kinetic equation")
+    require("the kinetic equation", results)
     table = deviations(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["left", "right"], ["decay", "decay"]], figsize=size)
@@ -92,4 +88,4 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_decay(panels["decay"], table)
     style.letter(*panels.values())
     whole = amplitudes(table).rename(columns={"error": "amplitude_error"})
-    return figure, table.merge(whole, on="cells").join(at_centre(table), on="cells"), caption(table, results)
+    return figure, table.merge(whole, on="cells").join(at_centre(table), on="cells"), caption(table)

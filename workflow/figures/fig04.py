@@ -14,18 +14,19 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, parameters
-from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_with_error
 from workflow.physics import run_parameters
 from workflow.physics.fluxes import at, reach
-from workflow.physics.paper import PAPER
 
+TITLE = "Momentum distribution of the particles at both ends of an open chain"
 UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
 
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
+CHAIN = ("gamma", "sigma", "nu_left", "nu_right", "temperature_left", "temperature_right")
 EQUAL = "\n$\\nu_L = \\nu_R$"
 FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
 NEAR = 4  # ratio of the largest |p| to that in the panel of the jump
@@ -40,12 +41,9 @@ def measured(results: Sequence[Result]) -> list[Result]:
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the chain of `like`; None if there is none."""
     for result in results:
-        # Rates are options of one configuration, so that equal ones have equal bits.
-        same = run_parameters.gamma(result) == run_parameters.gamma(like) and result.ends("nu") == like.ends(
-            "nu"
-        )
-        same &= like.parameters["rule"] == "elastic"
-        if same and result.provenance["program"] == "boltzmann":
+        # Options of one configuration, so that equal ones have equal bits.
+        chain = {name: like.parameters[name] for name in CHAIN}
+        if result.provenance["program"] == "boltzmann" and holds([like]) and holds([result], **chain):
             return result
     return None
 
@@ -125,33 +123,26 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
     ):  # jumps of similar size could not be distinguished on an axis that includes 0
         axes.axvline(0, **style.GUIDE)
     axes.set(xlabel=r"jump $F_N(0^+, x) - F_N(0^-, x)$", ylim=(0.5 - len(chains), 0.5))
-    names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]
+    names = [rf"$\gamma = {gamma}${EQUAL if equal else ''}" for gamma, equal, _ in chains]
     axes.set_yticks([-row for row in range(len(chains))], names)
     axes.tick_params(axis="y", length=0)
     low, high = axes.get_xlim()
     axes.set_xlim(low, high + 0.45 * (high - low))  # space for the numbers
 
 
-def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
-    runs = [result for result in measured(results) if run_parameters.gamma(result) == main.gamma.iloc[0]]
-    chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
+def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
-    if chain.parameters["gamma"] == "N":
+    claim = "follows the kinetic equation, with a jump at p = 0"
+    if main.gamma.iloc[0] == "N":
         claim = "has small jumps at p = 0"
-    else:
-        claim = "follows the kinetic equation, with a jump at p = 0"
-    still = main[main.nu_left == main.nu_right]
-    equal = ", also at equal rates" if len(still) else ""
-    return f"""
-        The paper finds that F_N(p, x) behind the end scatterers {claim}. Here ({parameters([chain], "cells", "cell_length", "sigma", *BATHS, paper=PAPER["fig04"])})
-        it differs from the kinetic equation (black) by up to {math.ceil(10 * far) / 10:g} % of max F.
-        (d) Jumps at p = 0{equal}."""
+    text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a), (b) Points: chain;
+        lines: kinetic equation. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
+        at p = 0, of the chain and by the kinetic equation (bars)."""
+    largest = f"{math.ceil(10 * far) / 10:g}" if math.isfinite(far) else None
+    return Caption(text, largest=largest)
 
 
-@plots(
-    "rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile",
-    varying="cells gamma nu_left nu_right temperature_left temperature_right",
-)
+@plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")
 def draw(results: Sequence[Result]) -> Parts:
     table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]
@@ -172,8 +163,4 @@ def draw(results: Sequence[Result]) -> Parts:
     panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="kinetic equation")
     figure.legend(*panels["near"].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
-    return figure, table, caption(main, unequal, results)
-
-
-def title(results: Sequence[Result]) -> str:
-    return f"Momentum distribution of the particles at both ends, γ = {at_ends(results).gamma.iloc[-1]}"
+    return figure, table, caption(main, unequal)

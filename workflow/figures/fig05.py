@@ -7,12 +7,11 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import format_number, listed, parameters
-from workflow.lib.figure import Parts, plots, require_elastic
-from workflow.lib.fit import format_with_error
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds, plots, require
 from workflow.lib.load import NOT_REACHED, Result
+from workflow.lib.text import format_number, format_with_error, listed
 from workflow.physics.closed import persistence_at_momentum, persistence_law
-from workflow.physics.paper import PAPER
 from workflow.physics.run_parameters import mass
 
 TITLE = "Persistence probability against the mass ratio"
@@ -34,10 +33,11 @@ def at_momentum(result: Result) -> float:
     sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])
     if abs(sigma) == 1:
         return float(persistence_law(np.array(sigma)))
+    if not holds([result], scatterer_temperature=0):  # the total momentum is that of the particles
+        return np.nan
     energy = cells * result.parameters["particles_per_cell"] * float(result.parameters["temperature"])  # 2 E
     temperature = float(result["particle_energy"].mean + result["scatterer_energy"].mean)
     total_mass = cells * mass(result) + energy / temperature - cells
-    # Scatterers start at rest, so that the mean square of the total momentum is that of the particles.
     momentum = 0 if result.parameters["zero_total_momentum"] else energy / temperature
     return persistence_at_momentum(sigma, total_mass, momentum)
 
@@ -65,23 +65,24 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return table
 
 
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    dense = [result for result in results if result.series == "dense"]
-    main = [result for result in results if result not in dense] or results
-    names = {"paper": "", "dense": f" ({parameters(dense, 'particles_per_cell')})"}
-    most = []
-    shown = table[(table.sigma.abs() <= STEEP) & (table.series != "zero-momentum")]
-    for name, part in shown.groupby("series", sort=False):
+def caption(table: pd.DataFrame) -> str:
+    largest = {}
+    for name, part in table[table.sigma.abs() <= STEEP].groupby("series"):
         far = part.loc[part.deviation.abs().idxmax()]
-        most.append(f"{format_with_error(far.deviation, far.mu_error)}{names.get(name, f' in {name}')}")
-    return f"""
-        The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π. (b) Here ({parameters(main, "cells", "particles_per_cell", "temperature", paper=PAPER["fig05"])})
-        μ differs, for |σ| ≤ {format_number(STEEP)}, by up to {listed(sorted(most, key=len))}. Dashes: the law at the conserved total momentum."""
+        largest[name] = format_with_error(far.deviation, far.mu_error)
+    text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
+        (b) Difference from this law, for |σ| ≤ {steep}: up to {paper} in the paper's ring. With {density}
+        particles per cell it is up to {dense}. Dashes: the law at the conserved total momentum Π, random
+        in the paper."""
+    n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
+    density = listed(sorted(n)) if n else None
+    numbers = {name: largest.get(name) for name in ("paper", "dense")}
+    return Caption(text, steep=format_number(STEEP), density=density, **numbers)
 
 
-@plots("paper zero-momentum dense", varying="sigma particles_per_cell zero_total_momentum")
+@plots("paper zero-momentum dense")
 def draw(results: Sequence[Result]) -> Parts:
-    require_elastic(results, "the law arccos(σ)/π")
+    require("the law arccos(σ)/π", results)
     table = tabulate(results)
     figure, (above, below) = style.stacked(2.2, 1.4, height=1.5)
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
@@ -94,12 +95,14 @@ def draw(results: Sequence[Result]) -> Parts:
         look = look | {"label": look["label"].format(numbers)}
         above.errorbar(part.sigma, part.mu, part.mu_error, **look)
         below.errorbar(part.sigma, 1e3 * part.deviation, 1e3 * part.mu_error, **look)
-        inside = part[part.sigma.abs() < 1]
-        expected = 1e3 * (inside.at_momentum - inside.law)
-        below.plot(inside.sigma, expected, color=look["color"], linestyle=DASHED, zorder=1)
+        expected = (1e3 * (part.at_momentum - part.law)).where(part.sigma.abs() < 1)
+        # At σ = 0 momenta are only exchanged, and scatterers at rest do not relax: a point of its own.
+        line, middle = expected.where(part.sigma != 0), expected[part.sigma == 0]
+        below.plot(part.sigma, line, color=look["color"], linestyle=DASHED, zorder=1)
+        below.plot(0 * middle, middle, "_", color=look["color"], markersize=9, zorder=1)
     style.cross_out(above, table.sigma, table.mu, table.converged == NOT_REACHED)
     above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
-    above.legend(loc="upper right", title=f"${parameters(results, 'cells')}$")
+    above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
-    return figure, table, caption(table, results)
+    return figure, table, caption(table)

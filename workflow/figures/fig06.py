@@ -13,13 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import format_number, listed, parameters
-from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
-from workflow.physics.paper import PAPER
+from workflow.lib.text import format_number, format_quantity, listed
 
-TITLE = "Waiting-time density for σ = 0 and 1/2"
+TITLE = "Density of waiting times"
 UNITS = dict.fromkeys(("fitted", "gaussian_start"), "1/time")
 
 Mark = tuple[str, str, str]  # marker, colour and dashes
@@ -54,7 +53,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     density, options = result["density"], result.parameters
     sigma, tau = float(options["sigma"]), density.axes["tau"]
     table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
-    if sigma == 0:
+    if holds([result], sigma=0, gamma="N", scatterer_temperature=(0, "particles")):
         table["gaussian_start"] = gaussian_start(tau, options["temperature"], options["cell_length"])
     table = table[table.density > 0].assign(unsure=lambda rows: ~(rows.density_error < UNSURE * rows.density))
     tail = table[table.tau > cut(result)]
@@ -87,48 +86,27 @@ def mark_outside(axes: Axes, table: pd.DataFrame, color: str, power: float, top:
     axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
 
 
-def above_exact(table: pd.DataFrame, result: Result) -> str:
-    """A sentence on the tail at sigma = 0 over the exact density of an infinite number of particles. A
-    momentum that a scatterer holds flies again when the next particle arrives, on average after
-    λ/(n⟨|p|⟩): to first order in 1/n slow flights are more frequent by ⟨p²⟩/(n⟨|p|⟩²) = π/2n."""
-    tail = table[(table.tau > cut(result)) & ~table.unsure]
-    if tail.empty:
-        return ""
-    exact = tail.gaussian_start
-    # Weights by the counts that the exact density predicts: those observed would favour bins that are low.
-    weight = tail.tau * exact
-    mean = np.average(tail.density / exact, weights=weight)
-    error = np.hypot.reduce(tail.tau * tail.density_error) / weight.sum()
-    expected = 50 * np.pi / int(result.parameters["particles_per_cell"])
-    excess = format_with_error(100 * (mean - 1), 100 * error)
-    return f" At σ = 0 the tail is {excess} % above n → ∞ (expected: {expected:.2g} %)."
-
-
-def caption(results: Sequence[Result], young: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+def caption(results: Sequence[Result]) -> str:
     powers = listed(f"−{power} at σ = {format_number(sigma)}" for sigma, power in POWERS.items())
-    exponents = listed(style.format_quantity(result["exponent"]) for result in results)
-    pairs = zip(results, tables, strict=True)
-    excess = [above_exact(table, result) for result, table in pairs if "gaussian_start" in table]
-    return f"""
-        The paper gives Ψ(τ) the exponents {powers}. Here ({parameters(results, "gamma", "particles_per_cell", paper=PAPER["fig06"])})
-        they are {exponents} in the shaded windows.{"".join(excess)} Open: errors above {100 * UNSURE:.0f} %."""
+    text = f"""The paper gives the density Ψ of waiting times τ the exponents {powers}. Fits over the
+        shaded times give {{exponents}}. Below: Ψ over these powers. Line: exact density at σ = 0 for
+        infinitely many particles. Open: errors above {100 * UNSURE:.0f} %."""
+    return Caption(text, exponents=listed(format_quantity(result["exponent"]) for result in results))
 
 
-@plots("all young", varying="sigma")
+@plots("all young")
 def draw(results: Sequence[Result]) -> Parts:
-    young = [result for result in results if result.series == "young"]
-    results = sorted(
-        (result for result in results if result not in young), key=lambda result: result.parameters["sigma"]
-    )
+    shown = [result for result in results if result.series != "young"]
+    results = sorted(shown, key=lambda result: result.parameters["sigma"])
     tables = [tabulate(result) for result in results]
     figure, (above, *strips) = style.stacked(2.4, *[1] * len(results), height=0.8 + 0.5 * len(results))
     for strip, result, table, mark in zip(strips, results, tables, cycle(MARKS), strict=False):
         sigma = float(result.parameters["sigma"])
         power = POWERS.get(sigma, 2)
-        exponent = style.format_quantity(result["exponent"])
+        exponent = format_quantity(result["exponent"])
         draw_density(above, table, mark, label=rf"$\sigma = {format_number(sigma)}$: $\tau^{{{exponent}}}$")
         draw_density(strip, table, mark, power)
-        if sigma == 0:
+        if "gaussian_start" in table:
             seen = table[table.gaussian_start > table.density.min()]
             exact: style.Look = {"color": style.SKY, "zorder": 0, "label": r"$\sigma = 0$, $n \to \infty$"}
             above.plot(seen.tau, seen.gaussian_start, **exact)
@@ -142,4 +120,4 @@ def draw(results: Sequence[Result]) -> Parts:
         axes.axvspan(cut(results[0]), end, **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNIT_SYSTEM})")
     above.legend(loc="lower left")
-    return figure, pd.concat(tables), caption(results, young, tables)
+    return figure, pd.concat(tables), caption(results)

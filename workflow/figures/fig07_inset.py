@@ -1,5 +1,5 @@
 """Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum,
-with none, and with random directions after collisions, of the paper's footnote. The table also has other
+with none, and with random directions, of the paper's footnote. The table also has other
 relaxation times.
 """
 
@@ -9,18 +9,18 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import RULE_PHRASES, format_number, parameters, rule
+from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
-from workflow.physics.paper import PAPER
+from workflow.lib.text import format_number, format_with_error
+from workflow.physics.setting import rule
 
 TITLE = "Exponent of the mean square displacement against the mass ratio"
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
 PAPERS, ZERO = "random total momentum", "zero total momentum"
-RANDOM = RULE_PHRASES["random-direction"]
+RANDOM = "random directions"
 LOOKS = {
     PAPERS: style.points("o", style.BLUE, label=PAPERS),
     ZERO: style.points("s", style.VERMILLION, "white", label=ZERO),
@@ -29,9 +29,9 @@ LOOKS = {
 
 
 def kind(result: Result) -> str:
-    if rule(result) != "elastic":
-        return rule(result)
-    return ZERO if result.parameters["zero_total_momentum"] else PAPERS
+    if result.parameters["rule"] == "elastic":
+        return ZERO if result.parameters["zero_total_momentum"] else PAPERS
+    return RANDOM if result.parameters["rule"] == "random-direction" else rule(result)
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -60,22 +60,22 @@ def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
         axes.errorbar(points.sigma, points.alpha, points.alpha_error, **look | own)
 
 
-def extreme(part: pd.DataFrame, row: int) -> str:
+def extreme(part: pd.DataFrame, row: int) -> str | None:
     """The smallest (row 0) or the largest (row -1) exponent for σ ≠ 0; at σ = 0 momenta are only
-    exchanged."""
+    exchanged. None if there is none."""
     known = part[(part.sigma != 0) & part.alpha.notna()].sort_values("alpha")
-    return format_with_error(*known[["alpha", "alpha_error"]].iloc[row]) if len(known) else "unknown"
+    return format_with_error(*known[["alpha", "alpha_error"]].iloc[row]) if len(known) else None
 
 
-def caption(shown: pd.DataFrame, results: Sequence[Result]) -> str:
-    kinds = dict([*shown.groupby("kind")])
-    return f"""
-        The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) Here ({parameters(results, "cells", "particles_per_cell", "temperature", paper=PAPER["fig07_inset"])}) it is at least
-        {extreme(kinds[PAPERS], 0)}, by drift of the ring: at zero total momentum, at most {extreme(kinds[ZERO], -1)} (b). At σ = 0
-        momenta are only exchanged."""
+def caption(shown: pd.DataFrame) -> str:
+    least, most = (extreme(shown[shown.kind == kind], row) for kind, row in ((PAPERS, 0), (ZERO, -1)))
+    text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) At the paper's random total
+        momentum α is at least {least} for σ ≠ 0. (b) At zero total momentum, without drift of the ring,
+        it is at most {most}. Diamonds: random directions, as in the paper's footnote."""
+    return Caption(text, least=least, most=most)
 
 
-@plots("all zero-momentum aged random", varying="sigma zero_total_momentum rule")
+@plots("all zero-momentum aged random")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     shown = tabulate([result for result in results if result.series != "aged"])
@@ -88,6 +88,6 @@ def draw(results: Sequence[Result]) -> Parts:
         axes.axhline(value, **style.GUIDE)
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1))
     below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"$\alpha$ without drift")
-    below.set_xticks(TICKS, [format_number(sigma) for sigma in TICKS])
+    below.set_xticks(TICKS)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
-    return figure, table, caption(shown, results)
+    return figure, table, caption(shown)

@@ -13,12 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, parameters
-from workflow.lib.figure import Parts, plots
-from workflow.lib.fit import format_with_error, local_exponents
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds, plots
+from workflow.lib.fit import local_exponents
 from workflow.lib.load import Result
+from workflow.lib.text import format_with_error
 from workflow.physics import run_parameters
-from workflow.physics.paper import PAPER
 
 TITLE = "Heat conductivity against the size of the chain"
 COLUMNS = (
@@ -75,32 +75,24 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     style.name_point(axes, name, (part.cells.iloc[-1], guide.iloc[-1]), (4, 0), va="center")
 
 
-def course(table: pd.DataFrame, gamma: str) -> str:
-    """The largest and the last local exponent of a gamma."""
-    known = table[table.gamma == gamma].dropna(subset="exponent_to_next")
-    if known.empty:
-        return "not measured"
-    rows = known.loc[[known.exponent_to_next.idxmax(), known.index[-1]]]
-    largest, last = map(format_with_error, rows.exponent_to_next, rows.exponent_to_next_error)
-    return f"at most {largest}" + f", in the end {last}" * (largest != last)
-
-
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+def caption(table: pd.DataFrame) -> str:
+    """With the largest and the last local exponent of the largest gamma."""
     gamma = max(table.gamma, default="N")  # N is after any digit
-    temperature = (table.temperature_first + table.temperature_last) / 2
-    carried = (-temperature * table.particle_current / table.energy_current)[table.gamma == gamma]
-    low, high = (f"{value:.2f}" for value in (carried.min(), carried.max()))
-    return f"""
-        The paper reads κ as N^(1/3) at γ = N and N at γ = 1. Here ({parameters(results, "cell_length", "sigma", *BATHS, paper=PAPER["fig08"])})
-        κ = −J_U N/(T_N − T_1). (b) Exponents at γ = {gamma} are {course(table, gamma)}; open: heat alone, J_U − T J_n, as particles carry {low} to
-        {high} J_U backwards."""
+    known = table[table.gamma == gamma].dropna(subset="exponent_to_next")
+    texts = [*map(format_with_error, known.exponent_to_next, known.exponent_to_next_error)]
+    text = """The paper finds that κ = −J_U N/(T_N − T_1) grows as N^(1/3) at γ = N and as N at γ = 1
+        (grey, not fits). (b) Local exponents; at γ = {gamma} at most {largest}, and {last} in the end.
+        Open: heat J_U − T J_n alone. Errors smaller than symbols are hidden."""
+    largest = texts[int(known.exponent_to_next.argmax())] if texts else None
+    return Caption(text, gamma=gamma, largest=largest, last=texts[-1] if texts else None)
 
 
-@plots("deterministic deterministic-large rare rare-small mean-field", varying="cells gamma")
+@plots("deterministic deterministic-large rare rare-small mean-field")
 def draw(results: Sequence[Result]) -> Parts:
     shown = [result for result in results if result.provenance["program"] == "conductivity"]
     table = tabulate(shown)
-    theory = mean_field([result for result in results if result.provenance["program"] == "boltzmann"])
+    elastic = holds(shown)
+    theory = mean_field([one for one in results if elastic and one.provenance["program"] == "boltzmann"])
     figure, (above, below) = style.stacked(2, 1.2, height=1.6)
     looks = style.by_gamma(table.gamma)
     for gamma, part in table.groupby("gamma", sort=False):
@@ -110,7 +102,8 @@ def draw(results: Sequence[Result]) -> Parts:
             draw_guide(above, part, slope, power)
             style.guide_at(below, slope, text)
         above.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
-        below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
+        name = rf"$\gamma = {gamma}$"
+        below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, label=name, **look)
         heat, error = part.heat_exponent_to_next, part.heat_exponent_to_next_error
         below.errorbar(APART * part.between, heat, error, **style.points(*looks[gamma], "white"))
     for gamma, line in theory.groupby("gamma"):
@@ -125,6 +118,6 @@ def draw(results: Sequence[Result]) -> Parts:
     handles, labels = above.get_legend_handles_labels()
     above.legend(handles[::-1], labels[::-1], loc="upper left")
     below.plot([], [], "o", color="grey", markerfacecolor="white", label="heat alone")
-    below.legend(loc="lower right")
+    below.legend(loc="lower right", ncols=3, columnspacing=1, handletextpad=0.2)
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
-    return figure, whole, caption(table, shown)
+    return figure, whole, caption(table)

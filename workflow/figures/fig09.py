@@ -15,18 +15,20 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import parameters
-from workflow.lib.figure import Parts, plots
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_quantity
 from workflow.physics import run_parameters
 from workflow.physics.closed import quasi_stationary
-from workflow.physics.paper import PAPER
 from workflow.physics.pulse import in_order, label, look, look_of, named_start, resolved, start
 from workflow.physics.sound import Chain
 
+TITLE = "Energy difference after a pulse"
 UNITS = {"distance": "1"}
 
 FAINT = 0.45
+FRAME = 1.15  # over the largest peak: the scatterer of the central cell would set the scale
 
 
 def sound_speed(rest: Result) -> float:
@@ -41,7 +43,7 @@ def sound_speed(rest: Result) -> float:
 
 def with_sound(result: Result) -> bool:
     """Whether the speed of sound is known: from rest, where every particle scatters."""
-    return bool(result.parameters["gamma"] == "N" and start(result) == 0)
+    return holds([result], gamma="N", scatterer_temperature=0)
 
 
 def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:
@@ -61,6 +63,9 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
         part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
     axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
+    heights = result["peak"].mean[np.isin(result["peak"].axes["time"], shown)]
+    if np.isfinite(heights).any():
+        axes.set_ylim(top=FRAME * np.nanmax(heights) / 1e3)
     axes.set_title(label(result), size=style.label_size())
     return pd.concat(parts).assign(scatterer_temperature=str(start(result)))
 
@@ -75,37 +80,37 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
     speed.errorbar(rate.axes["middle"], rate.mean, rate.error, **look_of(result))
 
 
-def motion(result: Result) -> str:
-    """Verb phrase on the first and the last speed of the peak."""
+def speeds(result: Result) -> tuple[str, str] | tuple[None, None]:
+    """The first and the last speed of the peak that are known."""
     speed = result["peak_speed"]
     known = np.flatnonzero(np.isfinite(speed.mean) & (speed.error > 0))
     if not len(known):
-        return "is not resolved"
-    first, last = (style.format_quantity(speed, index) for index in known[[0, -1]])
-    return f"goes from {first} to {last}"
+        return None, None
+    return format_quantity(speed, known[0]), format_quantity(speed, known[-1])
 
 
-def caption(results: Sequence[Result]) -> str:
-    closed = any(result["ring_closed"].mean.any() for result in results)
-    faint = " Faint rings are closed." if closed else ""
+def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     rest = results[0]
-    sound = "; (d) sound in the ring from rest" * with_sound(rest)
-    if rest.parameters["gamma"] == "N":
-        peaks, near = "two peaks of almost constant speed", ""
-    else:
-        peaks, near = "peaks of constant speed", " The spike is the central scatterer, rarely hit."
-    return f"""
-        The paper finds {peaks} in the effect ΔE(x, t) of an energy pulse. Here ({parameters(results, "cells", "sigma", "particles_per_cell", paper=PAPER["fig09"])}),
-        {named_start(rest)}, the speed in cells per time {motion(rest)}.{near}{faint} Dashed: (c) the first speed{sound}."""
+    first, last = speeds(rest)
+    peaks = "two peaks of almost constant" if rest.parameters["gamma"] == "N" else "peaks of constant"
+    sound = "; (d) sound in the ring from rest" if with_sound(rest) else ""
+    faint = "Faint: after both sides of the pulse have met. " if table.ring_closed.any() else ""
+    centre = table[(table.distance == 0) & (table.scatterer_temperature == str(start(rest)))]
+    height = centre.energy_difference.max()
+    spike = f"{height / 1e3:.0f}" if height > FRAME * np.nanmax(rest["peak"].mean) else None
+    text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. (a) The central
+        cell reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
+        {named_start(rest).capitalize()}, the speed is {{first}} cells per time at first and {{last}} at
+        last. {faint}Dashed: (c) the first speed{sound}."""
+    return Caption(text, first=first, last=last, spike=spike)
 
 
-@plots("rest gaussian", varying="scatterer_temperature")
+@plots("rest gaussian")
 def draw(results: Sequence[Result]) -> Parts:
     results = in_order(results)
     size = (2 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["rest", "gaussian"], ["position", "speed"]], figsize=size)
     position, speed, rest = (panels[name] for name in ("position", "speed", "rest"))
-    panels["gaussian"].sharey(rest)
     common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
     shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
     tables = []
@@ -123,8 +128,5 @@ def draw(results: Sequence[Result]) -> Parts:
     position.set_ylim(top=1.35 * position.get_ylim()[1])
     figure.legend(*rest.get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
-    return figure, pd.concat(tables), caption(results)
-
-
-def title(results: Sequence[Result]) -> str:
-    return f"Energy difference after a pulse, {parameters(results[:1], 'gamma')}"
+    table = pd.concat(tables)
+    return figure, table, caption(results, table)

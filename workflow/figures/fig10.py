@@ -11,14 +11,14 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import listed, parameters
-from workflow.lib.figure import Parts
-from workflow.lib.fit import format_with_error
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, holds
 from workflow.lib.load import Result
+from workflow.lib.text import format_with_error, listed
 from workflow.physics import run_parameters
-from workflow.physics.paper import PAPER
 from workflow.physics.pulse import in_order, label, look_of, named_start, resolved, start
 
+TITLE = "Damping of the moving peak of an energy pulse"
 UNITS = dict.fromkeys(("exponent_from_here", "octave_exponent"), "1")
 UNITS |= {"speed_to_next": "1/time", "octave_middle": "time"}
 
@@ -79,20 +79,28 @@ def draw_guides(above: Axes, below: Axes, slopes: Guides, table: pd.DataFrame) -
     above.set_xlim(right=1.35 * above.get_xlim()[1])  # room for the names of the guides
 
 
-def exponents(result: Result) -> str:
-    """Verb phrase on the exponents of all octaves with a moving peak."""
+def guides(results: Sequence[Result]) -> Guides:
+    """The laws of elastic collisions."""
+    return SLOPES.get(run_parameters.gamma(results[0]), {}) if holds(results) else {}
+
+
+def exponents(result: Result) -> list[str]:
+    """The exponents of all octaves with a moving peak."""
     found = by_octave(result).dropna(subset="octave_exponent")
-    texts = [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
-    return f"is {listed(texts)}" if texts else "is not resolved"
+    return [*map(format_with_error, found.octave_exponent, found.octave_exponent_error)]
 
 
 def caption(results: Sequence[Result]) -> str:
-    rest, gamma = results[0], run_parameters.gamma(results[0])
-    law = "t^(−2/3)" if gamma == "N" else "t^(−1)"
-    guides = " Dashed: 2/3 (sound) and 1/2 (shock)." * (gamma == "N")
-    return f"""
-        The paper reads the height of the peak as {law}. Here ({parameters([rest], "cells", "sigma", "particles_per_cell", paper=PAPER["fig10"])}) the exponent over
-        successive octaves (b), {named_start(rest)}, {exponents(rest)}.{guides}"""
+    rest = results[0]
+    law = "t^(−2/3)" if run_parameters.gamma(rest) == "N" else "t^(−1)"
+    found = exponents(rest)
+    first, last = (found[0], found[-1]) if found else (None, None)
+    names = {-2 / 3: "2/3 (sound)", -1 / 2: "1/2 (shock)", -1: "1"}
+    laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
+    text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
+        Exponents fitted over successive octaves of time; {named_start(rest)} the first is {{first}}. The
+        last is {{last}}. Dashed guides, not fits: exponents {{laws}}."""
+    return Caption(text, first=first, last=last if len(found) > 1 else None, laws=laws)
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -106,7 +114,7 @@ def draw(results: Sequence[Result]) -> Parts:
         below.errorbar(table.octave_middle, table.octave_exponent, table.octave_exponent_error, **look)
     table = pd.concat(tables)
     above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNIT_SYSTEM})")
-    draw_guides(above, below, SLOPES.get(run_parameters.gamma(results[0]), {}), table)
+    draw_guides(above, below, guides(results), table)
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
@@ -114,7 +122,3 @@ def draw(results: Sequence[Result]) -> Parts:
     above.text(0.95, 0.95, rf"$\gamma = {run_parameters.gamma(results[0])}$", **corner)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure, table, caption(results)
-
-
-def title(results: Sequence[Result]) -> str:
-    return f"Damping of the moving peak of an energy pulse, {parameters(results[:1], 'gamma')}"

@@ -15,9 +15,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 
 from workflow.lib import style
-from workflow.lib.caption import format_number
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_number
 
 TITLE = "World lines of particles in a closed and in an open chain"
 UNITS = dict.fromkeys(("start_time", "end_time"), "time") | dict.fromkeys(
@@ -95,10 +95,9 @@ def world_lines(
     table = table.sort_values("energy")
     lines = np.stack([table[["start_position", "start_time"]], table[["end_position", "end_time"]]], axis=1)
     copies = [lines + np.array([shift, 0]) for shift in shifts]
-    drawn = LineCollection(
-        [*np.concatenate(copies)], array=np.tile(table.energy, len(copies)), cmap=COLOURS, norm=energies, linewidth=1, alpha=0.9,
-        capstyle="round",
-    )  # fmt: skip
+    array = np.tile(table.energy, len(copies))
+    look: style.Look = {"cmap": COLOURS, "norm": energies, "linewidth": 1, "alpha": 0.9, "capstyle": "round"}
+    drawn = LineCollection([*np.concatenate(copies)], array=array, **look)
     axes.add_collection(drawn)
     return drawn
 
@@ -117,7 +116,7 @@ def baths(axes: Axes, energies: PowerNorm) -> None:
     axes.set_xlim(-BATH, CELLS + BATH)
 
 
-@plots("", varying="")
+@plots("")
 def draw(_: Sequence[Result]) -> Parts:
     closed, row = flights(ring=True, seed=1), flights(ring=False, seed=1)
     table = pd.concat([closed, row], ignore_index=True)
@@ -138,8 +137,8 @@ def draw(_: Sequence[Result]) -> Parts:
     baths(panels[1], energies)
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
-    caption = f"""
-        A particle flies past all others to the next scatterer (grey), fixed in place, and both exchange energy (colours) and momentum.
-        Simulated with N = {CELLS} cells, σ = {format_number(SIGMA)} and γ = N. (a) The ring, joined at the dashed ends. (b) Baths, coloured by temperature, inject
-        particles and absorb those that reach them."""
+    caption = f"""A particle flies past all others to the next scatterer (grey), fixed in place, and both
+        exchange energy (colours) and momentum. Simulated with N = {CELLS} cells, σ =
+        {format_number(SIGMA)} and γ = N. (a) The ring, joined at the dashed ends. (b) Baths, coloured by
+        temperature, inject particles and absorb those that reach them."""
     return figure, table, caption

@@ -1,6 +1,7 @@
 """Numerical stability: the energy current in limits in which it is known; rounding errors of the conserved
 quantities, with the collision as it is computed and as the paper prints it."""
 
+import math
 from collections.abc import Sequence
 from itertools import cycle
 from typing import Any
@@ -11,9 +12,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import parameters, scientific
-from workflow.lib.figure import PHYSICS, Parts, plots
+from workflow.lib.caption import Caption
+from workflow.lib.figure import Parts, TheoryError, plots, require
 from workflow.lib.load import Result
+from workflow.lib.text import scientific, scientific_in_tex
 
 TITLE = "Numerical stability"
 UNITS = dict.fromkeys(("collisions", "ratio"), "1")
@@ -29,6 +31,7 @@ LIMITS = {  # series in the order of the panel, with the parameter that is extre
     "wide": ("cell_length", r"\lambda"),
 }
 BAR = 2  # standard errors
+EXTREME = 1e-2  # largest distance of γ from 0, or of σ from −1, 0 or 1, in limits with a known current
 
 
 def collisions(result: Result) -> float:
@@ -48,19 +51,16 @@ def drifts(results: Sequence[Result]) -> pd.DataFrame:
 
 def exact_current(result: Result) -> float:
     """J_U of ballistic particles or momenta, of which a fraction is transmitted: 1 without walls [eq. 36]."""
+    require("the exact energy current", [result])
+    sigma, gamma = float(result.parameters["sigma"]), result.parameters["gamma"]
+    if min(abs(sigma), 1 - abs(sigma), math.inf if gamma == "N" else float(gamma)) > EXTREME:
+        raise TheoryError(f"no exact energy current is known at σ = {sigma}, γ = {gamma}: {result.path}")
     flux = np.multiply(result.ends("nu"), result.ends("temperature")) / 2
     reflected = 0.0
-    if float(result.parameters["sigma"]) > 0.5:  # walls
-        reflected = float(result.parameters["gamma"]) / int(result.parameters["cells"])
+    if sigma > 0.5:  # walls
+        reflected = float(gamma) / int(result.parameters["cells"])
     walls = int(result.parameters["cells"]) * reflected / (1 - reflected)
     return float(flux[0] - flux[1]) / (1 + walls)
-
-
-def in_tex(value: float) -> str:
-    """The value with one digit, as 2·10^-3, for matplotlib."""
-    digit, power = f"{value:.0e}".split("e")
-    factor = "" if digit == "1" else rf"{digit} \cdot "
-    return f"{factor}10^{{{int(power)}}}"
 
 
 def limits(results: Sequence[Result]) -> pd.DataFrame:
@@ -74,7 +74,7 @@ def limits(results: Sequence[Result]) -> pd.DataFrame:
         elif name == "temperature_right":
             value /= result.ends("temperature")[0]
         current, exact = result["energy_current_mean"], exact_current(result)
-        row: dict[str, Any] = {"part": result.series, "limit": f"${symbol} = {in_tex(value)}$"}
+        row: dict[str, Any] = {"part": result.series, "limit": f"${symbol} = {scientific_in_tex(value)}$"}
         row |= {"ratio": float(current.mean) / exact, "ratio_error": float(current.error) / abs(exact)}
         rows.append(row)
     return pd.DataFrame(rows)
@@ -110,19 +110,20 @@ def draw_drifts(axes: Axes, table: pd.DataFrame) -> None:
     style.name_ends(axes, ends)
 
 
-def caption(walks: pd.DataFrame, known: pd.DataFrame, sigma: str) -> str:
+def caption(walks: pd.DataFrame, known: pd.DataFrame) -> str:
     score = float(((known.ratio - 1).abs() / known.ratio_error).max())
     longest = (
         walks[walks.observation_time == walks.observation_time.max()].groupby("rule").energy_change.max()
     )
-    changes = ", ".join(f"by {scientific(drift)} {RULES.get(rule, rule)}" for rule, drift in longest.items())
-    return f"""
-        (a) Energy currents of extreme chains deviate from their exact values (dots) by at most {score:.1f} standard
-        errors (grey: {BAR}); rounding (dotted) is far below. (b) In {scientific(walks.collisions.max())} collisions at {sigma} it changes
-        the energy {changes}."""
+    changes = {rule: scientific(longest[rule]) if rule in longest else None for rule in RULES}
+    text = f"""(a) Energy currents of extreme chains, whose exact values are known, deviate from them
+        (dots) by at most {{score}} standard errors (grey bars: {BAR}). Dotted: rounding error of the
+        energy. (b) Relative changes by rounding. {{collisions}} collisions change the energy by
+        {{elastic}} as computed here. The paper's formula changes it by {{printed}}."""
+    return Caption(text, score=f"{score:.1f}", collisions=scientific(walks.collisions.max()), **changes)
 
 
-@plots(f"rounding {' '.join(LIMITS)}", varying=" ".join(PHYSICS))
+@plots(f"rounding {' '.join(LIMITS)}")
 def draw(results: Sequence[Result]) -> Parts:
     rounding = [result for result in results if result.series == "rounding"]
     walks = drifts(rounding)
@@ -131,4 +132,4 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_limits(panels[0], known, walks[walks.rule == "elastic"].energy_change.max())
     draw_drifts(panels[1], walks)
     style.letter(*panels)
-    return figure, pd.concat([walks, known]), caption(walks, known, parameters(rounding, "sigma"))
+    return figure, pd.concat([walks, known]), caption(walks, known)

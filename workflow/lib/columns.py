@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
-from pandas.api.types import is_bool_dtype, is_integer_dtype, is_scalar
+from pandas.api.types import is_bool_dtype, is_integer_dtype
 
 from workflow.lib.load import Result
 from workflow.lib.units import UnitsError, parse
@@ -39,7 +39,7 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
 
 
 class TableError(ValueError):
-    """A table would lose a number or a label in its CSV."""
+    """A CSV would not be read as the table."""
 
 
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
@@ -59,58 +59,29 @@ def as_text(table: pd.DataFrame, digits: int = 12) -> str:
         text = f"{value:.{digits}g}"
         return f"{text}.0" if text.removeprefix("-").isdigit() else text
 
-    _require_columns(table)
     table = table.infer_objects()
-    named = {
-        name: [_named(name, cell) for cell in cells] for name, cells in table.items() if _has_number(cells)
-    }
-    text = table.assign(**named).to_csv(index=False, float_format=number, lineterminator="\n")
-    _require_no_loss(table, text)
-    return text
-
-
-def _require_columns(table: pd.DataFrame) -> None:
-    """Raises TableError for an index or for columns that a CSV cannot hold."""
-    if table.index.nlevels > 1 or table.index.name is not None or not is_integer_dtype(table.index):
+    for name in table.columns[[_has_number(cells) for _, cells in table.items()]]:
+        table = table.assign(**{name: [_named(name, cell) for cell in table[name]]})
+    text = table.to_csv(index=False, float_format=number, lineterminator="\n")
+    if table.index.name is not None or not is_integer_dtype(table.index):
         raise TableError("the index of the table is not written: return table.reset_index()")
-    if table.columns.nlevels > 1 or not all(isinstance(name, str) for name in table.columns):
-        raise TableError(f"columns need names of one word each: rename {', '.join(map(str, table.columns))}")
-    if not table.columns.is_unique:
-        raise TableError(f"two columns have the same name: {', '.join(map(str, table.columns))}")
-    for name, cells in table.items():
-        if not all(map(is_scalar, cells)):
-            raise TableError(
-                f"cells of the column {name} are no single numbers: give each a row, as explode()"
-            )
-        if any(isinstance(cell, complex) for cell in cells):
-            raise TableError(f"the column {name} has complex numbers: give both parts a column")
-
-
-def _require_no_loss(table: pd.DataFrame, text: str) -> None:
-    """Raises TableError if read_csv(comment="#") finds missing values elsewhere."""
-    if "#" in text:
-        raise TableError("# begins a comment in the CSV: choose another name for a column or label")
-    read = pd.read_csv(io.StringIO(text))
-    missing = read.isna().to_numpy() != table.isna().to_numpy()
-    for name in table.columns[missing.any(axis=0)]:
-        raise TableError(f"a label in the column {name} would be read as missing: choose other words")
+    try:
+        read = pd.read_csv(io.StringIO(text), comment="#")
+        same = {"check_dtype": False, "check_index_type": False, "rtol": 10.0 ** (1 - digits)}
+        pd.testing.assert_frame_equal(read, table.reset_index(drop=True), **same)
+    except (AssertionError, ValueError) as error:
+        raise TableError(f"the CSV would be read as another table: {' '.join(str(error).split())}") from error
+    return text
 
 
 def _has_number(cells: pd.Series) -> bool:
     """Whether a column of labels has a number, or a word that would be read as one."""
-    return any(isinstance(cell, str) for cell in cells) and any(map(_is_number, cells.dropna()))
-
-
-def _is_number(cell: object) -> bool:
-    try:
-        float(str(cell))
-    except ValueError:
-        return False
-    return True
+    labels = cells.map(type).eq(str).any()
+    return bool(labels and pd.to_numeric(cells, errors="coerce").notna().any())
 
 
 def _named(name: str, cell: Any) -> Any:
-    return cell if pd.isna(cell) else f"{name}={cell}" if isinstance(cell, str) else f"{name}={cell:g}"
+    return cell if pd.isna(cell) else f"{name}={cell}" if isinstance(cell, str) else f"{name}={cell:.12g}"
 
 
 def _is_label(column: pd.Series) -> bool:
@@ -123,8 +94,8 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
     without = [name for name in numbers if name not in known]
     if without:
         raise UnitsError(
-            f"the columns {', '.join(without)} have no units; name them after a quantity, or declare their units in the "
-            f"script: UNITS = {json.dumps(dict.fromkeys(without, '1'))}"
+            f"the columns {', '.join(without)} have no units; name them after a quantity, or declare their "
+            f"units in the script: UNITS = {json.dumps(dict.fromkeys(without, '1'))}"
         )
     units = {name: known[name] for name in numbers}
     for name, text in units.items():

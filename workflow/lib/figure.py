@@ -1,9 +1,9 @@
 """What the figure scripts share.
 
-A script, FIGURE.py in workflow/figures, defines draw(results), and TITLE, or title(results) where it differs
-between panels. `@plots` before draw names the plotted series. UNITS has the units of columns that are not
-named after a quantity, an axis or an option; they also hold for the columns of their errors. Anything else is
-in workflow/lib and workflow/physics, or named by `inputs` of the panel.
+A script, FIGURE.py in workflow/figures, defines TITLE and draw(results). `@plots` before draw names the
+plotted series. UNITS has the units of columns that are not named after a quantity, an axis or an option; they
+also hold for the columns of their errors. Anything else is in workflow/lib and workflow/physics, or named by
+`inputs` of the panel. The renderer adds the parameters to the caption (physics/setting.py).
 """
 
 import inspect
@@ -11,76 +11,51 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.lib.caption import listed
 from workflow.lib.load import Result
+from workflow.lib.text import listed
 
-Parts = tuple[
-    Figure, pd.DataFrame, str
-]  # figure, table of the plotted numbers, caption as one paragraph of plain text
-
-PHYSICS = (  # parameters of a model; others are effort, or times and bins
-    *("cells", "sigma", "gamma", "cell_length", "particles_per_cell", "fugacity", "zero_total_momentum"),
-    *("temperature", "scatterer_temperature", "energy", "pulse_energy", "rule"),
-    *("nu_left", "nu_right", "temperature_left", "temperature_right"),
-)
+# Figure, table of the plotted numbers, and caption as one paragraph of plain text; a Caption (caption.py) has
+# named numbers.
+Parts = tuple[Figure, pd.DataFrame, str]
 
 Draw = Callable[[Sequence[Result]], Parts]
 
 
 @dataclass(frozen=True)
 class Plot:
-    """draw() of a script that plots series by their names. It names others of the panel in the caption and
-    on stderr. varying: parameters that tell the curves and points apart; others have one value, or runs would
-    be taken for one another, and theories for those of other parameters."""
+    """draw() of a script that plots series by their names. It names others of the panel on stderr."""
 
     function: Draw
     series: tuple[str, ...]
-    varying: frozenset[str]
 
     def shown(self, results: Iterable[Result]) -> list[Result]:
         """The results of these series; all if none of them is given, as by a panel of one's own with this
         script."""
         given = [*results]
-        return [result for result in given if result.series in self.series] or given * bool(self.series)
+        return [result for result in given if result.series in self.series] or (given if self.series else [])
+
+    def not_shown(self, results: Sequence[Result]) -> list[str]:
+        """The other series of the panel itself."""
+        shown = {result.series for result in self.shown(results)}
+        own = (result.series for result in results if result.path.parent == results[-1].path.parent)
+        return [*dict.fromkeys(series for series in own if series not in shown)]
 
     def __call__(self, results: Iterable[Result]) -> Parts:
         given = [*results]
-        shown = self.shown(given)
-        self.require_one_value(shown)
-        figure, table, caption = self.function(shown)
-        if len(shown) == len(given):
-            return figure, table, caption
-        own = [result.series for result in given if result.path.parent == given[-1].path.parent]
-        if others := [name for name in dict.fromkeys(own) if name not in self.series]:
-            caption = f"{caption} Not shown: {listed(others)}."
+        if others := self.not_shown(given):
             script = Path(inspect.getfile(self.function)).name
             print(f"Not shown: {listed(others)}; to plot it, extend {script}", file=sys.stderr)
-        return figure, table, caption
-
-    def require_one_value(self, results: Sequence[Result]) -> None:
-        """Raises TheoryError if a parameter that the script does not tell apart has several values."""
-        for name in (name for name in PHYSICS if name not in self.varying):
-            given = [result.parameters for result in results if name in result.parameters]
-            values = {parameters[name] for parameters in given}
-            if name == "cell_length" and not any(isinstance(value, str) for value in values):
-                # One length of all chains is one value, too.
-                lengths = {f"{one[name] * one['cells']:.9g}" for one in given}
-                values = values if len(lengths) > 1 else set()
-            if len(values) > 1:
-                option, script = name.replace("_", "-"), Path(inspect.getfile(self.function)).name
-                raise TheoryError(
-                    f"{script} plots one {option}, and the runs have {listed(sorted(map(str, values)))}: make a panel of each"
-                )
+        return self.function(self.shown(given))
 
 
-def plots(series: str, varying: str) -> Callable[[Draw], Plot]:
-    """Decorator of draw(), which then takes the results of these series only. series: names, varying:
-    parameters in which they may differ, both separated by blanks."""
-    return lambda draw: Plot(draw, tuple(series.split()), frozenset(varying.split()))
+def plots(series: str) -> Callable[[Draw], Plot]:
+    """Decorator of draw(), which then takes the results of these series only, named with blanks between."""
+    return lambda draw: Plot(draw, tuple(series.split()))
 
 
 class TheoryError(ValueError):
@@ -91,11 +66,23 @@ class NoValueError(ValueError):
     """All values of a panel are undefined."""
 
 
-def require_elastic(results: Sequence[Result], theory: str) -> None:
-    """Raises TheoryError if a result has another collision rule than the paper's."""
+def holds(results: Iterable[Result], **values: Any) -> bool:
+    """Whether a theory for elastic collisions, and for these values of other parameters, holds for all
+    results. Where it does not, it is not drawn. values: one, or a tuple of several."""
+    required = {"rule": "elastic"} | values
+    return all(
+        result.parameters[name] in (allowed if isinstance(allowed, tuple) else (allowed,))
+        for result in results
+        for name, allowed in required.items()
+        if name in result.parameters
+    )
+
+
+def require(theory: str, results: Sequence[Result], **values: Any) -> None:
+    """Raises TheoryError where a theory does not hold, with which all of the panel is compared."""
     for result in results:
-        if result.parameters.get("rule", "elastic") != "elastic":
+        if not holds([result], **values):
+            required = listed(f"{name} {value}" for name, value in ({"rule": "elastic"} | values).items())
             raise TheoryError(
-                f"{theory} holds for elastic collisions only, and {result.path} has the rule {result.parameters['rule']}: leave it "
-                "out of the panel"
+                f"{theory} holds for {required} only, not for {result.path}: leave it out of the panel"
             )

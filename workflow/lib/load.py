@@ -16,9 +16,9 @@ import numpy as np
 if TYPE_CHECKING:
     import pandas as pd
 
-from workflow.lib.fit import format_with_error
 from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of, series_of
 from workflow.lib.suggestion import suggestion
+from workflow.lib.text import format_with_error
 from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"
@@ -121,9 +121,8 @@ class Result:
             error = quantity.discretisation_error if quantity.count is None else quantity.standard_error
             text = f" along {', '.join(quantity.axes)}" if quantity.axes else ""
             if error is not None and not quantity.axes:
-                text = f" = {format_with_error(float(quantity.mean), float(error))} {quantity.units}".removesuffix(
-                    " 1"
-                )
+                number = format_with_error(float(quantity.mean), float(error))
+                text = f" = {number} {quantity.units}".removesuffix(" 1")
             lines.append(target + text)
         lines.append(f"doubts: {'; '.join(self.doubts) or 'none'}")
         return "\n".join(lines)

@@ -19,9 +19,6 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLoca
 from matplotlib.typing import LineStyleType, RcKeyType
 from numpy.typing import ArrayLike
 
-from workflow.lib import fit
-from workflow.lib.load import Index, Quantity
-
 Look = dict[str, Any]  # keyword arguments of plotting functions
 
 # Width of a journal column, and height, in inches.
@@ -136,6 +133,7 @@ def name_ends(axes: Axes, ends: Iterable[tuple[str, float, float, str]]) -> None
     shifted = np.clip(isotonic_regression(heights - apart).x, 0, max(0, 1 - apart[-1])) + apart
     for (height, x, name, color), text in zip(placed, shifted, strict=True):
         leader = {"arrowstyle": "-", "linewidth": 0.5, "color": color, "shrinkA": 0, "shrinkB": 0}
+        leader["relpos"] = (0, 0.5)  # from the middle of the left edge: others would cross names
         look: Look = {"color": color, "size": label_size(), "va": "center", "arrowprops": leader}
         axes.annotate(name, (x, height), (left, text), "axes fraction", annotation_clip=False, **look)
 
@@ -203,9 +201,3 @@ def against_size(axes: Axes, sizes: Iterable[int]) -> None:
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
     """Crosses out points that are in doubt."""
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
-
-
-def format_quantity(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
-    """Value and error of a quantity at an index, as 1.8620(54)."""
-    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.error[index])
-    return fit.format_with_error(mean, error)

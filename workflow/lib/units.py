@@ -5,8 +5,8 @@
     factor  = word [ "^" digits ]
     word    = "1" | "length" | "time" | "momentum" | "energy" | "temperature" | "second"
 
-With m = k_B = 1 a momentum is a length over a time, and energy and temperature are its square. A second measures the computer, not
-the model.
+With m = k_B = 1 a momentum is a length over a time, and energy and temperature are its square. A second
+measures the computer, not the model.
 """
 
 import re

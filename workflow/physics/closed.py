@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike
 
 from workflow.physics.sound import logarithm_at
 
-ITERATIONS = 20  # of the quasi-stationary estimate; each reduces the distance from the fixed point by a factor of at least 8
+ITERATIONS = 20  # of the quasi-stationary estimate; each reduces the error by a factor of at least 8
 
 
 def persistence_law(sigma: np.ndarray) -> np.ndarray:

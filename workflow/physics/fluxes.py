@@ -14,7 +14,7 @@ FAINT = 1e-4  # fraction of the largest flux below which momenta are not shown
 
 
 def reach(flux: Quantity) -> float:
-    """Largest |p| in panels of the flux F(p): the end of the bins in which it exceeds FAINT of its maximum."""
+    """Largest |p| in panels of the flux F(p): the end of the bins with more than FAINT of its maximum."""
     momentum = flux.axes["momentum"]
     bright = np.abs(momentum[(flux.mean > FAINT * flux.mean.max()).any(axis=0)])
     return float(bright.max() + (momentum[1] - momentum[0]) / 2)
@@ -39,8 +39,8 @@ def at_zero(inner: ArrayLike) -> float:
 
 
 def in_bins(values: np.ndarray, count: int) -> np.ndarray:
-    """Means over neighbouring bins, which leave `count` of them. Raises FormatError if these do not have a whole
-    number of bins each."""
+    """Means over neighbouring bins, which leave `count` of them. Raises FormatError if these do not have a
+    whole number of bins each."""
     if len(values) % count:
         raise FormatError(
             f"{len(values)} bins of the kinetic equation are no multiple of the {count} of a chain"
@@ -49,8 +49,8 @@ def in_bins(values: np.ndarray, count: int) -> np.ndarray:
 
 
 def deviations(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per kind, N and bin: deviation from the continuum, in units of the largest F. The mean field has the
-    bins of the continuum, which may be narrower than those of the simulations."""
+    """One row per kind, N and bin: deviation from the continuum, in units of the largest F. The mean field
+    has the bins of the continuum, which may be narrower than those of the simulations."""
     (continuum,) = (result for result in results if result.parameters["cells"] == "continuum")
     flux = continuum["flux"]
     exact = outgoing(flux.mean, flux.axes["momentum"])
@@ -92,8 +92,8 @@ def amplitudes(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def at_centre(table: pd.DataFrame) -> pd.Series:
-    """Largest mean-field deviation by N: that as p -> 0, the larger one of both halves, each extrapolated by a line
-    through its two innermost bins."""
+    """Largest mean-field deviation by N: that as p -> 0, the larger one of both halves, each extrapolated by
+    a line through its two innermost bins."""
     centres = {}
     for cells, part in table[table.kind == MEAN_FIELD].groupby("cells"):
         inner = [part[np.sign(part.momentum) == side].sort_values("momentum", key=abs) for side in (-1, 1)]

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from workflow.lib import style
-from workflow.lib.caption import format_number
 from workflow.lib.load import Result
+from workflow.lib.text import format_number
 
 # By run: marker, colour and fill colour; in the order of the legends, the paper's start first.
 LOOKS = {

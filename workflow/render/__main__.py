@@ -15,14 +15,15 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import with_doubts
+from workflow.lib.caption import doubts, quoted
 from workflow.lib.columns import TableError, as_csv, inherited
 from workflow.lib.figure import NoValueError, Plot, TheoryError
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
 from workflow.lib.units import UnitsError
+from workflow.physics import setting
 from workflow.render.files import format_os_error
-from workflow.render.frame import with_outside
+from workflow.render.frame import outside
 from workflow.render.record import panel_identity, sources_of_panel
 from workflow.render.save import Parents, Text, save
 
@@ -34,32 +35,36 @@ class EditedError(ValueError):
 def render(
     script: str, stem: str, results: Sequence[str], inputs: Sequence[str] = (), planned: str = ""
 ) -> None:
-    """Writes the files of a panel. script: its path; stem: FOLDER/QUALITY/PANEL; results: paths; inputs: other
-    files and folders that the script uses; planned: identity of the panel, "" if none is planned. Raises
-    REFUSED, OSError."""
+    """Writes the files of a panel. script: its path; stem: FOLDER/QUALITY/PANEL; results: paths; inputs:
+    other files and folders that the script uses; planned: identity of the panel, "" if none is planned.
+    Raises REFUSED, OSError."""
     panel, sources = Path(stem).name, sources_of_panel(script, inputs)
     identity = panel_identity(panel, results, sources)
     if planned not in (identity, ""):
         raise EditedError(f"{', '.join(sources)}: one of these was edited meanwhile: repeat the command")
     paths = [*map(Path, results)]
     loaded = load_all(paths)
-    figure, numbers, text = draw(script, loaded)
-    doubts = {str(result.path): result.doubts for result in loaded if result.doubts}
-    save(figure, numbers, Path(stem), text, Parents(identity, paths, sources, doubts))
+    figure, csv, text = draw(script, loaded)
+    doubtful = {str(result.path): result.doubts for result in loaded if result.doubts}
+    save(figure, csv, Path(stem), text, Parents(identity, paths, sources, doubtful))
 
 
 def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
-    """Figure, table as CSV, title and caption that a script makes from results. Raises REFUSED."""
+    """Figure, table as CSV, title and caption of a panel from its script. Raises REFUSED."""
     module = import_module(script.removesuffix(".py").replace("/", "."))
+    shown, others = loaded, []
+    if isinstance(module.draw, Plot):
+        shown, others = module.draw.shown(loaded), module.draw.not_shown(loaded)
+        setting.require_one_value(shown, Path(script).stem)
     style.apply()
     figure, table, caption = module.draw(loaded)
     units = getattr(module, "UNITS", {})
     errors = {f"{column}_error": text for column, text in units.items()}
-    numbers = as_csv(table, inherited(loaded) | errors | units)
-    shown = module.draw.shown(loaded) if isinstance(module.draw, Plot) else loaded
-    whole = with_doubts(with_outside(" ".join(caption.split()), figure), shown)
-    title = module.title(shown) if hasattr(module, "title") else module.TITLE
-    return figure, numbers, Text(" ".join(title.split()), whole)
+    csv = as_csv(table, inherited(loaded) | errors | units)
+    added = [f"Not shown: {quoted(others)}."] if others else []
+    added += [*outside(figure), *doubts(shown), setting.sentences(shown, Path(script).stem)]
+    whole = " ".join(" ".join([caption, *added]).split())
+    return figure, csv, Text(module.TITLE, whole, getattr(caption, "numbers", {}))
 
 
 def load_all(paths: Sequence[Path]) -> list[Result]:

@@ -1,5 +1,8 @@
 """Whether the points of a figure are in the frames of their axes."""
 
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,17 +13,24 @@ from workflow.lib.style import GUIDE
 ROUNDING = 1e-9  # relative to the range of the axis
 
 
-def with_outside(caption: str, figure: Figure) -> str:
-    """The caption, with a sentence on the points outside of the frames. Raises NoValueError if no point of
+def outside(figure: Figure) -> list[str]:
+    """A sentence on the points outside of the frames, if there are such. Raises NoValueError if no point of
     the figure is finite."""
-    points = [each for each in map(_points, figure.axes) if len(each)]
+    frames = _with_insets(figure.axes)
+    points = [each for each in map(_points, frames) if len(each)]
     if points and not np.isfinite(np.concatenate(points)).all(axis=1).any():
         raise NoValueError(
             "no value to draw: all points are undefined, as κ between baths of one temperature"
         )
-    outside = sum(map(_outside, figure.axes))
-    text = "1 point is outside the frame" if outside == 1 else f"{outside} points are outside the frames"
-    return f"{caption} {text}." if outside else caption
+    number = sum(map(_outside, frames))
+    text = "1 point is outside the frame." if number == 1 else f"{number} points are outside the frames."
+    return [text] if number else []
+
+
+def _with_insets(frames: Iterable[Any]) -> list[Axes]:
+    """The axes, with their insets, which are not in figure.axes, and second axes that have points."""
+    axes = [one for one in frames if isinstance(one, Axes)]
+    return [*axes, *(child for one in axes for child in _with_insets(one.child_axes))]
 
 
 def _points(axes: Axes) -> np.ndarray:

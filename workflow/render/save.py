@@ -31,6 +31,7 @@ RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  #
 class Text:
     title: str
     caption: str  # text without line breaks
+    numbers: Mapping[str, str]  # of the caption, by their names
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.figure import PHYSICS, Parts, plots
-from workflow.lib.fit import format_with_error
+from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
+from workflow.lib.text import format_with_error
 from workflow.study import rings
 
 TITLE = "Conductivity of fig. 8's gas, and heat with and without conserved momentum"
@@ -114,7 +114,7 @@ SERIES += " light dense sparse thin thin-long light-longest dense-longest sparse
 SERIES += " light-rotation light-reversal thin-rotation thin-reversal deterministic deterministic-large"
 
 
-@plots(SERIES, varying=" ".join(PHYSICS))
+@plots(SERIES)
 def draw(results: Sequence[Result]) -> Parts:
     of_rings = [result for result in results if result.provenance["program"] == "heat_current"]
     own = [result for result in of_rings if result.series.startswith(OWN)]

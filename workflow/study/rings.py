@@ -5,8 +5,8 @@ from typing import Any
 
 import pandas as pd
 
-from workflow.lib.caption import format_number
 from workflow.lib.load import Result
+from workflow.lib.text import format_number
 from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
 

@@ -5,8 +5,7 @@ import re
 
 from markupsafe import Markup, escape
 
-from workflow.lib.caption import power_of_ten, scientific
-from workflow.lib.fit import format_with_error
+from workflow.lib.text import format_with_error, power_of_ten, scientific
 from workflow.study.verdict import Band, Estimate
 
 BOUND = " ± "
