@@ -6,7 +6,8 @@
 
 namespace lorentz {
 
-/// Parameters of the stationary measure of a closed chain [eq. 54] at rest on average.
+/// Parameters of the stationary measure of a closed chain [eq. 54] at rest on average. Only heat_current, of
+/// the study "does the paper hold?", starts from it.
 struct StationaryMeasure {
   double fugacity = 1;     // z of the flux z exp(-p^2/2T); 1/length
   double temperature = 1;  // T

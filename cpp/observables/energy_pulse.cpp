@@ -3,10 +3,10 @@
 /// 43], minus that in the same chain without the pulse.
 ///
 /// The ring is folded about its centre by mirror symmetry [eq. 45] before the moving peak is fitted
-/// (statistics/peak.hpp). At times without a peak, as before it leaves the centre, all quantities of the peak
-/// are NaN, and fits use the other times. The same holds from the time on at which the two sides of the pulse
-/// meet opposite to it, as a later peak may have gone around the ring. For gamma -> 0 the pulse is that of
-/// free flight [eq. 47].
+/// (observables/energy_pulse/peak.hpp). At times without a peak, as before it leaves the centre, all
+/// quantities of the peak are NaN, and fits use the other times. The same holds from the time on at which the
+/// two sides of the pulse meet opposite to it, as a later peak may have gone around the ring. For gamma -> 0
+/// the pulse is that of free flight [eq. 47].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 #include <malloc.h>
 #endif
 
-#include "engine/pair.hpp"
+#include "observables/energy_pulse/moving_peak.hpp"
+#include "observables/energy_pulse/pair.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
-#include "statistics/moving_peak.hpp"
 
 namespace {
 

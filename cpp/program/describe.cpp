@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "program/stopping_rule.hpp"
-
 namespace lorentz {
 namespace {
 
@@ -64,11 +62,8 @@ std::string describe(const Options& options, const std::string& description,
                      const std::vector<Description>& quantities) {
   Members result{{"program", quoted(options.program())}, {"description", quoted(description)}};
   Members described_options;
-  for (const Option& option : options.all()) {
-    if (option.name == "--replicas")
-      result.emplace_back("least_replicas", fmt::format("{}", StoppingRule::least));
+  for (const Option& option : options.all())
     described_options.emplace_back(option.name.substr(2), description_of(option));
-  }
   result.emplace_back("options", object(described_options));
   std::vector<std::string> described;
   for (const Description& what : quantities) {

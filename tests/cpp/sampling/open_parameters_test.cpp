@@ -13,7 +13,9 @@ TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
     for (const double U : parameters.start_point(10, {1, 0}).scatterers) sum += U * U;
     return sum / parameters.scattering.cells;
   };
-  OpenParameters parameters{.scattering = {.cells = 20'000}, .cell_length = 1e-4};
+  OpenParameters parameters;
+  parameters.scattering.cells = 20'000;
+  parameters.cell_length = 1e-4;
   constexpr double error = 0.01;  // relative standard error, sqrt(2/cells)
   for (const bool mirrored : {false, true}) {
     parameters.left.temperature = mirrored ? 900 : 100;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "statistics/peak.hpp"
+#include "observables/energy_pulse/peak.hpp"
 #include "statistics/tally.hpp"
 
 namespace lorentz {

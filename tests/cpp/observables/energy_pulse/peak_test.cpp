@@ -1,4 +1,4 @@
-#include "statistics/peak.hpp"
+#include "observables/energy_pulse/peak.hpp"
 
 #include <gtest/gtest.h>
 

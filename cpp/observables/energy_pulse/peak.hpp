@@ -38,11 +38,11 @@ struct Peak {
 /// middle)/half_width)^2, which vanish at the ends of the window. NaN if the fit has no maximum in the
 /// window.
 ///
-/// Bias against exact profiles averaged over cells (tests/cpp/statistics/peak_test.cpp). Height: 0.1 % for
-/// Gaussian peaks of 1 to 7 cells standard deviation; 5 % at 1 cell, 2 % at 1.5 and 1.2 % above for sech^2 of
-/// the same widths; 3 % at s = 2 cells and 0.6 % from 3 on for the energy of freely flying particles, x^2
-/// exp(-x^2/2s^2). Position: 5 % of the width. Noise adds no bias to first order, unlike in a fit of
-/// logarithms.
+/// Bias against exact profiles averaged over cells (tests/cpp/observables/energy_pulse/peak_test.cpp).
+/// Height: 0.1 % for Gaussian peaks of 1 to 7 cells standard deviation; 5 % at 1 cell, 2 % at 1.5 and 1.2 %
+/// above for sech^2 of the same widths; 3 % at s = 2 cells and 0.6 % from 3 on for the energy of freely
+/// flying particles, x^2 exp(-x^2/2s^2). Position: 5 % of the width. Noise adds no bias to first order,
+/// unlike in a fit of logarithms.
 Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-#include "engine/pair.hpp"
+#include "observables/energy_pulse/pair.hpp"
 
 namespace lorentz {
 

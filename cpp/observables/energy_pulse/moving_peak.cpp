@@ -1,4 +1,4 @@
-#include "statistics/moving_peak.hpp"
+#include "observables/energy_pulse/moving_peak.hpp"
 
 #include <algorithm>
 #include <cmath>
