@@ -16,9 +16,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
+from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
-from workflow.lib.text import format_with_error
+from workflow.lib.text import format_with_error, listed
 from workflow.study import rings
 
 TITLE = "Conductivity of fig. 8's gas, and heat with and without conserved momentum"
@@ -97,16 +98,15 @@ def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
 
 
 def caption(sizes: pd.DataFrame) -> str:
-    known = sizes[sizes.usable].dropna(subset="ratio_error")
-    known = known[known.cells >= min(FIRST, known.cells.max())]
-    ratios = " and ".join(
-        f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}"
-        for row in known.drop_duplicates("cells").iloc[sorted({0, len(known) - 1})].itertuples()
-    )
-    return f"""
-        (a) Conductivity of heat in fig. 8, and the Green–Kubo value of rings of its gas, ζ = 16/N, at the
-        time in which sound crosses the chain, without a free parameter; the latter over the former is
-        {ratios}. (b) Noise that conserves momentum or breaks it. (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1."""
+    """With the ratio at the shortest and the longest chain from FIRST on, or of the longest alone."""
+    known = sizes[sizes.usable].dropna(subset="ratio_error").sort_values("cells")
+    rows = [*known[known.cells >= min(FIRST, max(known.cells, default=FIRST))].itertuples()]
+    ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
+    text = """(a) Conductivity of heat in fig. 8, and of rings of its gas, ζ = 16/N, in equilibrium: the
+        Green–Kubo value at the time in which sound crosses the chain. It has no free parameter, and is
+        {ratios} times that of fig. 8. (b) Noise that conserves momentum or breaks it. (c) β of
+        ⟨Q²⟩ ∼ t^β; diffusion has 1."""
+    return Caption(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
 
 
 SERIES = " ".join(f"{OWN}{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))

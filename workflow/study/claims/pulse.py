@@ -16,7 +16,9 @@ from workflow.study.results import MissingError, Results, estimate, exponent_bet
 from workflow.study.verdict import Estimate
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
-PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/observables/energy_pulse/moving_peak.hpp)
+PEAK_BIAS = (
+    0.02  # largest bias of the damping exponent of an octave (cpp/observables/energy_pulse/moving_peak.hpp)
+)
 RESOLVED = (0.032, 0.04)  # first times at which the front spans the cells that the fit of its height needs
 LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
 
