@@ -21,8 +21,8 @@ class Chain:
     sigma: float = 0.5
     gamma: float | str = "N"
     rule: str = "elastic"
-    reversal_probability: float | str = "none"
-    rotation_probability: float | str = "none"
+    reversal_probability: float | None = None
+    rotation_probability: float | None = None
     cells: int = 6
     particles_per_cell: int = 1
     temperature: float = 500
@@ -33,7 +33,7 @@ class Chain:
     @property
     def options(self) -> dict[str, object]:
         """The chain as options of a program."""
-        return asdict(self)
+        return {name: value for name, value in asdict(self).items() if value is not None}
 
     def __str__(self) -> str:
         return f"sigma={self.sigma},gamma={self.gamma},{self.rule},cells={self.cells}"

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import Program, seal
-from workflow.lib import caption
 from workflow.lib.identity import result_identity
 from workflow.lib.load import (
     FORMAT_VERSION,
@@ -175,11 +174,6 @@ def test_the_replicas_of_a_result_are_those_of_its_most_complete_quantity() -> N
         name: Quantity(np.ones(2), np.ones(2), None, np.array(n), {}, "1", {}, 0)
         for name, n in counts.items()
     }
-    results = [
-        Result(Path(), {"seed": 1}, {}, quantities),
-        Result(Path(), {"seed": 1}, {}, {"rate": quantities["rate"]}),
-    ]
-    assert results[0].replicas == 64
-    assert caption.replicas(results) == "32 to 64 replicas"
+    assert Result(Path(), {"seed": 1}, {}, quantities).replicas == 64
     with pytest.raises(FormatError, match="computed quantity"):
         _ = Quantity(np.ones(2), None, np.zeros(2), None, {}, "1", {}, 0).error

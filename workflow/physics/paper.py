@@ -46,11 +46,11 @@ DRIVEN = HEATED | {"nu_left": ["282.843"], "nu_right": ["141.421"], "cells": [32
 DRIVEN |= {"sigma": [0.5]}
 LIMIT = HEATED | {"nu_left": ["28.284"], "nu_right": ["14.142"], "cells": [4], "cell_length": [1]}
 LIMIT |= {"sigma": [0]}
-RINGS = ["light", "light-long", "light-longest", "dense-longest", "dilute-longest", "sparse-longest"]
-RINGS += ["rotation", "reversal"]
-RING_GAS: Stated = {"cells": [160, 646, 2272, 3072, 3360, 5168], "cell_length": [1], "temperature": [1]}
-RING_GAS |= {"fugacity": [0.2, 0.8, 1.6], "sigma": [-0.8, -0.5, 0.5], "rule": AXIS}
-NOISY = PAPER["fig08"] | {"cells": AXIS, "rule": AXIS}
+RING_GAS: Stated = {"cells": AXIS, "fugacity": AXIS, "cell_length": [1], "temperature": [1]}
+RING_GAS |= {"sigma": [-0.8, -0.5, 0.5]}
+RINGS = [f"gas-{2**k}" for k in range(4, 12)] + ["thin-long"]
+RINGS += [f"{gas}{size}" for gas in ("light", "dense", "sparse", "thin") for size in ("", "-longest")]
+NOISY = [f"{gas}-{rule}" for gas in ("light", "thin") for rule in ("rotation", "reversal")]
 SPARSE: Stated = {"nu_left": AXIS, "nu_right": AXIS}
 
 # Choices of this project by panel or figure, then by series.
@@ -85,7 +85,7 @@ CHOICES: dict[str, dict[str, Stated]] = {
     "fig08": {ALL: {"cells": AXIS}},
     "fig09": {ALL: START, "rest": FROM_REST, "gaussian": LONG},
     "fig10": {ALL: START, "long": LONG | {"cells": [301, 1001]}},
-    "momentum": dict.fromkeys(RINGS, RING_GAS) | dict.fromkeys(("chain-rotation", "chain-reversal"), NOISY),
+    "momentum": dict.fromkeys(RINGS, RING_GAS) | dict.fromkeys(NOISY, RING_GAS | {"rule": AXIS}),
     "accuracy": dict.fromkeys(("reference", "cold", "warm"), DRIVEN)
     | {"kinetic": UNEQUAL | {"sigma": [0.5], "gamma": [1, 50]}},
     "stability": {

@@ -30,6 +30,11 @@ def spacing(result: Result) -> tuple[float, str]:
     return float(given), f"{given}".removesuffix(".0")
 
 
+def length(result: Result) -> float:
+    """Length of a chain."""
+    return spacing(result)[0] * int(result.parameters["cells"])
+
+
 def in_order_of_spacing(results: Sequence[Result]) -> list[Result]:
     """In ascending order, so that 1/N, the spacing of the paper's other chains, is first."""
     return sorted(results, key=lambda result: spacing(result)[0])

@@ -20,6 +20,7 @@ from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_with_error, listed
+from workflow.physics import run_parameters
 from workflow.study import rings
 
 TITLE = "Conductivity of fig. 8's gas, and heat with and without conserved momentum"
@@ -46,7 +47,8 @@ def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
     )
     ends = [chain[f"temperature_{end}"].mean for chain in chains for end in ("first", "last")]
     columns = ["cells", "green_kubo", "green_kubo_error"]
-    values = pd.DataFrame((rings.green_kubo(ring, float(np.mean(ends))) for ring in own), columns=columns)
+    state = float(np.mean(ends)), max(run_parameters.length(chain) for chain in chains)
+    values = pd.DataFrame((rings.green_kubo(ring, *state) for ring in own), columns=columns)
     table = table.merge(values, "outer", "cells").sort_values("cells", ignore_index=True)
     table["ratio"] = table.green_kubo / table.kappa_heat
     relative = table.kappa_heat_error / table.kappa_heat, table.green_kubo_error / table.green_kubo

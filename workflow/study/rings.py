@@ -33,13 +33,13 @@ def gas(result: Result) -> tuple[str | float, ...]:
     return (result.parameters["rule"], epsilon(result), *state)
 
 
-def green_kubo(result: Result, temperature: float) -> tuple[int, float, float]:
+def green_kubo(result: Result, temperature: float, length: float) -> tuple[int, float, float]:
     """N of the chain of fig. 8 that holds this gas, and its conductivity of heat per cell by Green and Kubo
-    at the last time of the ring [eq. 61], with its error. temperature: of the chain, whose cells are 1/N
-    long."""
+    at the last time of the ring [eq. 61], with its error. temperature, length: of the chain."""
     heat, own = result["mean_square_heat"], chain(result)
     cells = round(SLOW_FLUX / own.zeta)
-    unit = 2 * heat.axes["time"][-1] * own.cell_length * own.temperature**2.5 / (cells * temperature**0.5)
+    speed = cells * temperature**0.5 / length  # √T̄/λ of the chain
+    unit = 2 * heat.axes["time"][-1] * own.cell_length * own.temperature**2.5 / speed
     return cells, float(heat.mean[-1] / unit), float(heat.error[-1] / unit)
 
 
