@@ -196,7 +196,7 @@ def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path, optio
     stored = load(tmp_path / "out.h5")
     assert stored.converged == "not reached"
     assert 0 < stored.provenance["achieved_error"] < 1e-2
-    assert stored.doubts
+    assert stored.warnings
 
 
 @pytest.mark.parametrize("options", [{"gamma": 0}, {"gamma": 1e-10}, {"nu_left": 0}])

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT, command_line
-from workflow.lib.caption import DOUBTS
+from workflow.lib.caption import WARNINGS
 from workflow.lib.identity import sha256
 from workflow.lib.load import NOT_TESTED, load
 from workflow.lib.text import format_quantity
@@ -51,7 +51,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
     assert (table.at_momentum < table.law).all()
 
 
-def test_doubts_about_the_results_of_other_panels(tmp_path: Path) -> None:
+def test_warnings_of_the_results_of_other_panels(tmp_path: Path) -> None:
     """Two replicas are too few to test whether the chain is stationary. Detected mistakes: only results of
     the panel itself are named in its caption; only those that failed the test."""
     paths = [tmp_path / "other/deterministic.h5", tmp_path / "panel/rare.h5"]
@@ -62,7 +62,7 @@ def test_doubts_about_the_results_of_other_panels(tmp_path: Path) -> None:
     stem = tmp_path / "smoke/panel"
     render("fig02_upper", stem, paths)
     (record,) = stem.parent.glob("panel.*.json")
-    assert DOUBTS[NOT_TESTED] + ": `deterministic` and `rare`." in json.loads(record.read_text())["caption"]
+    assert WARNINGS[NOT_TESTED] + ": `deterministic` and `rare`." in json.loads(record.read_text())["caption"]
 
 
 def test_another_collision_is_stated_in_all_files_and_numbers_have_names(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from tests.python.conftest import ROOT, command_line
 from tests.python.plotted import CHAIN, draw, points, result
 from workflow.figures import accuracy, fig03_inset, fig09
 from workflow.lib import style
-from workflow.lib.caption import doubts
+from workflow.lib.caption import warnings
 from workflow.lib.figure import NoValueError
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION
 from workflow.render.frame import outside
@@ -130,4 +130,4 @@ def test_a_run_without_a_value_is_named() -> None:
     """Detected mistake: a size is missing in fig. 8 without a word."""
     run = result("rare_cells=32", CHAIN, kappa=np.nan)
     run.provenance["target_quantity"] = "kappa"
-    assert doubts([run]) == ["Without a value: `rare_cells=32`."]
+    assert warnings([run]) == ["Without a value: `rare_cells=32`."]

@@ -49,7 +49,7 @@ def test_there_is_no_error_where_no_particle_turns(program: Program, tmp_path: P
     assert result.returncode == (4 if targeted else 0)
     stored = load(tmp_path / "out.h5")
     assert stored.converged == ("not reached" if targeted else "no target")
-    assert stored.doubts == ([f"target error not reached: {ALL_AGREE}"] if targeted else [])
+    assert stored.warnings == ([f"target error not reached: {ALL_AGREE}"] if targeted else [])
     assert stored["mu"].mean == 1
     assert np.isnan([stored["mu"].standard_error, stored.provenance["achieved_error"]]).all()
 
@@ -68,7 +68,7 @@ def test_a_quantity_that_is_not_defined_misses_no_target(program: Program, tmp_p
     """No particle scatters."""
     assert program("persistence", relaxation_time=0, observation_time=1e-12).returncode == 0
     stored = load(tmp_path / "out.h5")
-    assert stored.doubts == ["target quantity not defined"]
+    assert stored.warnings == ["target quantity not defined"]
     assert np.isnan(stored["mu"].mean)
 
 

@@ -8,8 +8,8 @@ from workflow.lib.load import NOT_STATIONARY, NOT_TESTED, UNDEFINED, Result
 from workflow.lib.text import listed
 
 FEW = 3  # runs that are named one by one
-DOUBTS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
-DOUBTS |= {NOT_TESTED: "With too few replicas to test whether stationary"}
+WARNINGS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
+WARNINGS |= {NOT_TESTED: "With too few replicas to test whether stationary"}
 
 
 class Caption(str):
@@ -34,11 +34,11 @@ def quoted(names: Iterable[str]) -> str:
     return listed(f"`{name}`" for name in names)
 
 
-def doubts(results: Sequence[Result]) -> list[str]:
+def warnings(results: Sequence[Result]) -> list[str]:
     """A sentence on results without a value, one on those that are not stationary, and one on those that were
     not tested. Panels with a point for each also cross them out."""
     sentences = []
-    for doubt, text in DOUBTS.items():
-        if runs := [result.run for result in results if doubt in result.doubts]:
+    for warning, text in WARNINGS.items():
+        if runs := [result.run for result in results if warning in result.warnings]:
             sentences.append(f"{text}: {quoted(runs) if len(runs) <= FEW else f'{len(runs)} runs'}.")
     return sentences

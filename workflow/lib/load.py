@@ -110,7 +110,7 @@ class Result:
     parameter_rules: dict[str, str] = field(default_factory=dict)  # the rule of its options
 
     def __repr__(self) -> str:
-        """Program, options, target quantity, doubts: a line each."""
+        """Program, options, target quantity, warnings: a line each."""
         target = self.provenance.get("target_quantity", "")
         lines = [
             str(self.path),
@@ -124,7 +124,7 @@ class Result:
                 number = format_with_error(float(quantity.mean), float(error))
                 text = f" = {number} {quantity.units}".removesuffix(" 1")
             lines.append(target + text)
-        lines.append(f"doubts: {'; '.join(self.doubts) or 'none'}")
+        lines.append(f"warnings: {'; '.join(self.warnings) or 'none'}")
         return "\n".join(lines)
 
     def __getitem__(self, name: str) -> Quantity:
@@ -164,7 +164,7 @@ class Result:
         return str(self.provenance["converged"])
 
     @property
-    def doubts(self) -> list[str]:
+    def warnings(self) -> list[str]:
         """Reasons to doubt the numbers: a missed target error, a target quantity that is NaN, a window
         that is not stationary or was not tested."""
         reasons = []
@@ -183,8 +183,8 @@ class Result:
 
     @property
     def usable(self) -> bool:
-        """Whether nothing makes the numbers doubtful."""
-        return not self.doubts
+        """Whether there are no warnings."""
+        return not self.warnings
 
 
 def load(path: Path | str) -> Result:

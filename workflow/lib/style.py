@@ -199,5 +199,5 @@ def against_size(axes: Axes, sizes: Iterable[int]) -> None:
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
-    """Crosses out points that are in doubt."""
+    """Crosses out points with a warning."""
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)

@@ -19,7 +19,7 @@ from shlex import quote
 
 from workflow.lib.identity import ROOT, panel_of, run_of, sha256
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, doubtful, runs_of
+from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, runs_of, warnings_of
 from workflow.pipeline.state import (
     Fault,
     State,
@@ -75,14 +75,14 @@ def fault_of_bytes(panel: Panel, again: str) -> Fault | None:
     return None
 
 
-def print_doubts(doubts: Mapping[str, list[str]]) -> None:
-    """Names doubtful runs with the reasons, a line for each panel and reason."""
+def print_warnings(warnings: Mapping[str, list[str]]) -> None:
+    """Prints a line for each panel and warning, with the runs."""
     alike = defaultdict(list)
-    for path, reasons in doubts.items():
+    for path, reasons in warnings.items():
         alike[panel_of(path), "; ".join(reasons)].append(run_of(path))
     for (panel, reason), runs in sorted(alike.items(), key=lambda item: item[0][0] in TOO_SHORT):
         purpose = " (too short on purpose)" if panel in TOO_SHORT else ""
-        print(f"doubtful: {panel}{purpose}: {reason}: {', '.join(runs)}")
+        print(f"warning: {panel}{purpose}: {reason}: {', '.join(runs)}")
 
 
 def print_faults(faults: Iterable[Fault]) -> None:
@@ -112,7 +112,7 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
         else:
             unmade.append(plan.report)
     print_faults(faults)
-    print_doubts(doubtful(made))
+    print_warnings(warnings_of(made))
     if unmade:
         print(f"Not made at quality {plan.quality.name}: {', '.join(product.name for product in unmade)}")
     states = Counter(fault.state for fault in faults)

@@ -14,7 +14,7 @@ from workflow.lib.identity import panel_of
 from workflow.pipeline.audit import TOO_SHORT
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, doubtful, runs_of
+from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, runs_of, warnings_of
 from workflow.pipeline.program import compile_programs, require_built, require_valid
 from workflow.pipeline.queue import Queue
 from workflow.pipeline.state import Fault, State, faults_of_files, faults_of_results
@@ -199,7 +199,7 @@ def printed_by(log: str) -> str:
 
 
 def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: Sequence[Product]) -> int:
-    """Prints where the products are, without those that were edited by hand, and the number of doubtful runs.
+    """Prints where the products are, without those that were edited by hand, and the number of runs with warnings.
     Returns the exit status: 1 if one was edited."""
     edited = faults_by_edit(panels, products)
     for fault in {*edited.values()}:
@@ -209,10 +209,10 @@ def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: 
     except_ = f", except {', '.join(edited)}" if edited else ""
     if unedited and not (target == "report" and "report" in edited):
         print(DONE[target].format(**words, except_=except_))
-    if found := [path for path in doubtful(panels) if panel_of(path) not in TOO_SHORT]:
+    if found := [path for path in warnings_of(panels) if panel_of(path) not in TOO_SHORT]:
         number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
         few = "; at smoke few replicas are intended" if plan.quality.file == "smoke" else ""
-        print(f"{number} doubts{few}: make status {plan.quality.arguments}")
+        print(f"{number} warnings{few}: make status {plan.quality.arguments}")
     return int(bool(edited))
 
 

@@ -327,7 +327,7 @@ def runs_of(panels: Iterable[Panel]) -> dict[str, Run]:
     return {run.path: run for panel in panels for run in panel.plotted}
 
 
-def doubtful(panels: Iterable[Panel]) -> dict[str, list[str]]:
-    """Reasons to doubt a result, by its path, of the results that panels with a present record plot.
-    Raises ConfigurationError, OSError."""
-    return {path: why for panel in panels for path, why in panel.record.get("doubts", {}).items()}
+def warnings_of(panels: Iterable[Panel]) -> dict[str, list[str]]:
+    """Warnings of the results that panels with a present record plot, by path. Raises ConfigurationError,
+    OSError."""
+    return {path: why for panel in panels for path, why in panel.record.get("warnings", {}).items()}

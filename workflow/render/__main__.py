@@ -15,7 +15,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import doubts, quoted
+from workflow.lib.caption import quoted, warnings
 from workflow.lib.columns import TableError, as_csv, inherited
 from workflow.lib.figure import NoValueError, Plot, TheoryError
 from workflow.lib.identity import ROOT
@@ -45,8 +45,8 @@ def render(
     paths = [*map(Path, results)]
     loaded = load_all(paths)
     figure, csv, text = draw(script, loaded)
-    doubtful = {str(result.path): result.doubts for result in loaded if result.doubts}
-    save(figure, csv, Path(stem), text, Parents(identity, paths, sources, doubtful))
+    warned = {str(result.path): result.warnings for result in loaded if result.warnings}
+    save(figure, csv, Path(stem), text, Parents(identity, paths, sources, warned))
 
 
 def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
@@ -62,7 +62,7 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     errors = {f"{column}_error": text for column, text in units.items()}
     csv = as_csv(table, inherited(loaded) | errors | units)
     added = [f"Not shown: {quoted(others)}."] if others else []
-    added += [*outside(figure), *doubts(shown), setting.sentences(shown, Path(script).stem)]
+    added += [*outside(figure), *warnings(shown), setting.sentences(shown, Path(script).stem)]
     whole = " ".join(" ".join([caption, *added]).split())
     return figure, csv, Text(module.TITLE, whole, getattr(caption, "numbers", {}))
 

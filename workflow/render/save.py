@@ -39,7 +39,7 @@ class Parents:
     identity: str  # of the panel
     results: Sequence[Path]
     sources: Mapping[str, str]  # hashes by path
-    doubts: Mapping[str, list[str]]  # reasons to doubt a result, by path
+    warnings: Mapping[str, list[str]]  # of results, by path
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
@@ -71,7 +71,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         [f"# {text.title}", units, f"# caption: {text.caption}", f"# {line}", numbers]
     ).encode()
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "renderer": renderer(), "doubts": dict(parents.doubts)}
+    record |= {"commit": commit(), "renderer": renderer(), "warnings": dict(parents.warnings)}
     record |= {"parents": [*map(str, parents.results)], "sources": dict(parents.sources)}
     write_product(stem, parents.identity, contents, record)
 
