@@ -1,5 +1,5 @@
-"""Ends every test that takes too long, as failed; makes the figures at smoke quality once. Signals act as in a
-terminal, also under nohup."""
+"""Ends every test that takes too long, as failed; makes the figures at smoke quality once. Signals act as
+in a terminal, also under nohup."""
 
 import fcntl
 import signal

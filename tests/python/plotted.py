@@ -20,8 +20,17 @@ from workflow.lib.load import Quantity, Result
 Law = tuple[Any, dict[str, Any]]  # values, and coordinates by axis
 BATHS = {"nu_left": 220.0, "nu_right": 180.0, "temperature_left": 80.0, "temperature_right": 120.0}
 CHAIN = {"cells": 8, "cell_length": "1/N", "sigma": 0.5, "gamma": "N", "rule": "elastic", **BATHS}
-RING = {"cells": 11, "particles_per_cell": 20, "cell_length": 1.0, "sigma": 0.5, "gamma": "N", "rule": "elastic",
-        "temperature": 500.0, "zero_total_momentum": False, "relaxation_time": 100.0}  # fmt: skip
+RING = {
+    "cells": 11,
+    "particles_per_cell": 20,
+    "cell_length": 1.0,
+    "sigma": 0.5,
+    "gamma": "N",
+    "rule": "elastic",
+    "temperature": 500.0,
+    "zero_total_momentum": False,
+    "relaxation_time": 100.0,
+}
 PROVENANCE = {"converged": "no target", "events": 6400, "target_quantity": "", "achieved_error": 0.5}
 
 

@@ -19,14 +19,28 @@ BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
         {"output": None},
         {"output": "-"},
     ],
-    "displacement": [{"fit-decades": 1.5, "decades": 1}, {"replicas": 10**8}, {"decades": 15, "observation-time": 1e-3, "relaxation-time": 100}],
+    "displacement": [
+        {"fit-decades": 1.5, "decades": 1},
+        {"replicas": 10**8},
+        {"decades": 15, "observation-time": 1e-3, "relaxation-time": 100},
+    ],
     "energy_pulse": [{"times": "0.02,0.01"}, {"pulse-cells": 22}, {"cells": 6}, {"relaxation-time": 1e12}],
-    "heat_current": [{"times": "1e-9,1"}, {"times": "1,2", "observation-time": 1.5}, {"times": "1,2.5"}, {"fit-from": 3}, {"fugacity": 1e12}],
-    "conductivity": [{"relaxation-time": "5N"}, {"cell-length": 1e-11, "observation-time": 1000}, {"nu-left": 1e12}],
+    "heat_current": [
+        {"times": "1e-9,1"},
+        {"times": "1,2", "observation-time": 1.5},
+        {"times": "1,2.5"},
+        {"fit-from": 3},
+        {"fugacity": 1e12},
+    ],
+    "conductivity": [
+        {"relaxation-time": "5N"},
+        {"cell-length": 1e-11, "observation-time": 1000},
+        {"nu-left": 1e12},
+    ],
     "momentum_flux": [{"momentum-bins": 21}],
     "particle_count": [{"times": "10"}],
     "boltzmann": [{"gamma": "N"}, {"positions": "0.5", "cells": 4}, {"nu-left": 0, "nu-right": 0}, RANDOM],
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("name", "options"), [(name, case) for name, cases in BAD.items() for case in cases])

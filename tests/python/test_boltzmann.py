@@ -147,8 +147,19 @@ def test_the_stated_error_depends_on_no_bins(solve: Measure) -> None:
     rates, temperatures = (1, 1), (1, 1.5)
     stated, wrong = set(), 0.0
     for bins in (8, 240):
-        result = solve((4,), cells=1, gamma=1, sigma=0.05, nu_left=1, nu_right=1, temperature_left=1,
-                       temperature_right=1.5, momentum_max=3, momentum_bins=bins, target_error=0.003)  # fmt: skip
+        result = solve(
+            (4,),
+            cells=1,
+            gamma=1,
+            sigma=0.05,
+            nu_left=1,
+            nu_right=1,
+            temperature_left=1,
+            temperature_right=1.5,
+            momentum_max=3,
+            momentum_bins=bins,
+            target_error=0.003,
+        )
         flux = result["flux_density"]
         p = flux.axes["momentum"]
         stated |= {*np.unique(flux.discretisation_error), *np.unique(result["flux"].discretisation_error)}

@@ -14,14 +14,27 @@ from workflow.lib.load import Result
 
 
 def test_fig05() -> None:
-    """In a ring of N = 11, n = 20 at T_0 = 400, particles and scatterers meet at T = 1200 [eq. 11], in which the
-    total momentum has the mean square nNT_0, or 0."""
+    """In a ring of N = 11, n = 20 at T_0 = 400, particles and scatterers meet at T = 1200 [eq. 11], in
+    which the total momentum has the mean square nNT_0, or 0."""
     sigma = np.array([-0.5, 0.5])
     runs = [
-        result(f"{series}_sigma={x}", RING | {"sigma": x, "cells": 11, "particles_per_cell": 20, "temperature": 400.0, "zero_total_momentum": series != "paper"},
-               mu=np.arccos(x) / np.pi + 0.01, particle_energy=500.0, scatterer_energy=700.0)
-        for series in ("paper", "zero-momentum") for x in sigma
-    ]  # fmt: skip
+        result(
+            f"{series}_sigma={x}",
+            RING
+            | {
+                "sigma": x,
+                "cells": 11,
+                "particles_per_cell": 20,
+                "temperature": 400.0,
+                "zero_total_momentum": series != "paper",
+            },
+            mu=np.arccos(x) / np.pi + 0.01,
+            particle_energy=500.0,
+            scatterer_energy=700.0,
+        )
+        for series in ("paper", "zero-momentum")
+        for x in sigma
+    ]
     (above, below), _, caption = draw("fig05", runs)
     shown = [over(part, "mu") for part in (runs[:2], runs[2:])]
     assert_points(above, *((sigma, *each) for each in shown))
@@ -40,9 +53,14 @@ def test_fig06() -> None:
     tau = np.geomspace(0.1, 1000, 9)
     fit = {"tail_from": 20.0, "temperature": 400.0}  # the tail begins at 1
     runs = [
-        result(f"all_sigma={sigma}", RING | fit | {"sigma": sigma}, density=(height * tau**-power, {"tau": tau}), exponent=-power)
+        result(
+            f"all_sigma={sigma}",
+            RING | fit | {"sigma": sigma},
+            density=(height * tau**-power, {"tau": tau}),
+            exponent=-power,
+        )
         for sigma, power, height in ((0.0, 3.0, 3.0), (0.5, 2.0, 5.0))
-    ]  # fmt: skip
+    ]
     for run in runs:
         run["density"].error[...] = 0.02 * run["density"].mean
     young = result("young", RING | fit | {"relaxation_time": 10.0}, exponent=-1.97)
@@ -71,11 +89,16 @@ def test_fig07() -> None:
         ("zero-momentum", 11, True, 1.1, 5.0),
     )
     runs = [
-        result(run, RING | {"cells": cells, "zero_total_momentum": zero, "fit_decades": 1.0}, mean_square_displacement=(factor * time**power, {"time": time}),
-               mean_square_drift=((0.3 if cells == 11 else 0.05) * time**2, {"time": time}),
-               local_slope=(np.full(3, power), {"time": time[1:]}), alpha=power)
+        result(
+            run,
+            RING | {"cells": cells, "zero_total_momentum": zero, "fit_decades": 1.0},
+            mean_square_displacement=(factor * time**power, {"time": time}),
+            mean_square_drift=((0.3 if cells == 11 else 0.05) * time**2, {"time": time}),
+            local_slope=(np.full(3, power), {"time": time[1:]}),
+            alpha=power,
+        )
         for run, cells, zero, power, factor in laws
-    ]  # fmt: skip
+    ]
     (above, below), table, caption = draw("fig07", [runs[2], *runs[:2]])
     assert_points(above, *((time, *both(run["mean_square_displacement"])) for run in runs))
     assert_points(below, *((np.sqrt(time[1:] * time[:-1]), *both(run["local_slope"])) for run in runs))
@@ -120,12 +143,22 @@ def pulses() -> list[Result]:
     time, cells = np.array([0.01, 0.02, 0.04]), np.arange(11)
     middle = np.sqrt(time[1:] * time[:-1])
     return [
-        result(run, PULSE | start, energy_difference=(np.outer(1 / time, 100 + cells) * factor, {"time": time, "cell": cells}),
-               ring_closed=([0, 0, 0], {"time": time}), peak=(factor / time**factor, {"time": time}),
-               peak_position=(5 + factor * 100 * time, {"time": time}), peak_speed=([100.0 * factor, 101.0 * factor], {"middle": middle}),
-               local_damping_exponent=([0.6, 0.2 * factor], {"until": time[1:]}), damping_exponent_from=([0.7, 0.71], {"from": time[:-1]}))
-        for run, start, factor in (("rest", {}, 3.0), ("gaussian", {"scatterer_temperature": "particles"}, 2.0))
-    ]  # fmt: skip
+        result(
+            run,
+            PULSE | start,
+            energy_difference=(np.outer(1 / time, 100 + cells) * factor, {"time": time, "cell": cells}),
+            ring_closed=([0, 0, 0], {"time": time}),
+            peak=(factor / time**factor, {"time": time}),
+            peak_position=(5 + factor * 100 * time, {"time": time}),
+            peak_speed=([100.0 * factor, 101.0 * factor], {"middle": middle}),
+            local_damping_exponent=([0.6, 0.2 * factor], {"until": time[1:]}),
+            damping_exponent_from=([0.7, 0.71], {"from": time[:-1]}),
+        )
+        for run, start, factor in (
+            ("rest", {}, 3.0),
+            ("gaussian", {"scatterer_temperature": "particles"}, 2.0),
+        )
+    ]
 
 
 def test_fig09() -> None:
@@ -165,8 +198,15 @@ def test_fig10_plots_an_octave_at_the_middle_of_its_known_heights() -> None:
     """Detected mistake: the middle includes the time without a height."""
     time = np.array([1.0, 1.4, 2, 2.8, 4, 5.6, 8])
     peak = np.where(time == 8, np.nan, 9000 * time**-0.6)
-    long = result("long", PULSE, peak=(peak, {"time": time}), peak_position=(time, {"time": time}), damping_exponent_from=(np.full(6, 0.6), {"from": time[:-1]}),
-                  peak_speed=(time[1:], {"middle": time[1:]}), local_damping_exponent=([0.6, 0.6, 0.64], {"until": [2.0, 4, 8]}))  # fmt: skip
+    long = result(
+        "long",
+        PULSE,
+        peak=(peak, {"time": time}),
+        peak_position=(time, {"time": time}),
+        damping_exponent_from=(np.full(6, 0.6), {"from": time[:-1]}),
+        peak_speed=(time[1:], {"middle": time[1:]}),
+        local_damping_exponent=([0.6, 0.6, 0.64], {"until": [2.0, 4, 8]}),
+    )
     _, table, caption = draw("fig10", [long])
     octaves = table.dropna(subset="octave_exponent").set_index("time")
     np.testing.assert_allclose(octaves.octave_middle, [2**0.5, 8**0.5, (4 * 5.6) ** 0.5])

@@ -51,8 +51,8 @@ def test_currents_of_independent_walkers(
     ],
 )
 def test_without_noise_the_rule_is_elastic(measure: Measure, name: str, quantity: str, rule: str) -> None:
-    """Bit for bit; but for the rounding of the energy that a collision leaves to the neighbour. Detected mistake:
-    one event of the noise in a hundred collisions."""
+    """Bit for bit; but for the rounding of the energy that a collision leaves to the neighbour. Detected
+    mistake: one event of the noise in a hundred collisions."""
     elastic = measure(name, (0, 4))[quantity].mean
     never, seldom = (
         measure(name, (0, 4), rule=rule, **{f"{rule}_probability": p})[quantity].mean for p in (0, 0.01)

@@ -64,8 +64,8 @@ ROTATION = [{"rule": "rotation", "rotation_probability": probability} for probab
 def test_every_rule_conducts_where_it_exchanges_energy(
     program: Program, tmp_path: Path, rule: dict, conducts: tuple[int, ...], sigma: int
 ) -> None:
-    """And not momenta only. Detected mistakes: a rule that conserves momentum exchanges momenta only; scatterers
-    of infinite mass exchange no energy."""
+    """And not momenta only. Detected mistakes: a rule that conserves momentum exchanges momenta only;
+    scatterers of infinite mass exchange no energy."""
     times = {"relaxation_time": 10, "observation_time": 40}
     done = program("conductivity", cells=3, sigma=sigma, replicas=32, **times, **rule, progress="log")
     if rule["rule"] == "printed" and sigma != 0:
@@ -102,7 +102,8 @@ def test_slow_particles_that_accumulate_bound_the_error_of_the_current(
     program: Program, tmp_path: Path
 ) -> None:
     """Without scattering J_n is exactly 40 [eq. 30]. Particles slower than a chain length per time are still
-    inside; each is missing at one opening, so that a current, the mean of both, lacks at most half of them."""
+    inside; each is missing at one opening, so that a current, the mean of both, lacks at most half of
+    them."""
     window = {"relaxation_time": 10, "observation_time": 100}
     done = program("conductivity", cells=7, gamma=0, replicas=400, **window, progress="log")
     result = load(tmp_path / "out.h5")

@@ -10,7 +10,8 @@ from tests.python.described import described, options_of_programs
 # Decisions that a reader of a caption, or who chooses an effort, relies on.
 ROLES = {
     "physics": "cells sigma gamma rule rotation-probability cell-length particles-per-cell temperature "
-    "temperature-left nu-right scatterer-temperature zero-total-momentum energy pulse-energy pulse-cells fugacity",
+    "temperature-left nu-right scatterer-temperature zero-total-momentum energy pulse-energy "
+    "pulse-cells fugacity",
     "effort": "replicas seed target-error target-scale pairs-per-replica",
     "output": "times momentum-bins momentum-max decades fit-decades fit-from tail-from positions",
     "execution": "threads progress output overwrite resume checkpoint-interval describe",

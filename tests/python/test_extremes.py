@@ -1,5 +1,5 @@
-"""Programs in a unit of length that is no power of two (test_units.py has these), and the smallest and the largest
-chains."""
+"""Programs in a unit of length that is no power of two (test_units.py has these), and the smallest and the
+largest chains."""
 
 import pytest
 
@@ -7,8 +7,8 @@ from tests.python.conftest import Measure
 
 
 def test_lengths_are_a_matter_of_units(measure: Measure) -> None:
-    """A chain in which every rounding differs, but trajectories do not part yet. Detected mistake: an absolute
-    length or time, which powers of two as units would not show."""
+    """A chain in which every rounding differs, but trajectories do not part yet. Detected mistake: an
+    absolute length or time, which powers of two as units would not show."""
     chain = {"cells": 11, "particles_per_cell": 20, "relaxation_time": 0, "observation_time": 20, "seed": 5}
     one, three = (
         measure("persistence", **chain, cell_length=unit, temperature=500 * unit**2)["particle_energy"].mean

@@ -12,8 +12,22 @@ from tests.python.described import described, options_of_programs
 from workflow.lib.load import load
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
-PROVENANCE = {"format", "format_version", "program", "option_words", "source_hash", "compiler", "flags", "libraries", "events",
-              "target_quantity", "target_error", "achieved_error", "error_without_control_variates", "converged"}  # fmt: skip
+PROVENANCE = {
+    "format",
+    "format_version",
+    "program",
+    "option_words",
+    "source_hash",
+    "compiler",
+    "flags",
+    "libraries",
+    "events",
+    "target_quantity",
+    "target_error",
+    "achieved_error",
+    "error_without_control_variates",
+    "converged",
+}
 
 
 TYPES = {"integer": int, "number": float, "boolean": bool, "string": str}
@@ -60,8 +74,12 @@ def test_files_have_the_described_content_and_the_same_bytes_for_any_threads(
                 assert kind == "count" or dataset.attrs["units"] == group["mean"].attrs["units"]
         assert {*file["provenance"].attrs} == PROVENANCE
         signed = {"int64", "float64", "bool"}
-        assert {file[group].attrs[key].dtype.name for group in ("parameters", "provenance") for key in file[group].attrs
-                if not isinstance(file[group].attrs[key], str | bytes)} <= signed | {"bytes"}  # fmt: skip
+        assert {
+            file[group].attrs[key].dtype.name
+            for group in ("parameters", "provenance")
+            for key in file[group].attrs
+            if not isinstance(file[group].attrs[key], str | bytes)
+        } <= signed | {"bytes"}
     options = options_of_programs()[name]
     result = load(tmp_path / "1.h5")
     for key, value in result.parameters.items():

@@ -48,8 +48,10 @@ def test_short_times_have_the_variance_of_the_current(heat_current: Measure) -> 
 def test_short_times_with_rotations_have_the_variance_of_the_energy_that_they_carry(
     heat_current: Measure,
 ) -> None:
-    """Every collision, of which a scatterer has z sqrt(2πT) per unit time, carries an energy over one cell. All
-    three velocities are independent and Gaussian, before and after it. The neighbour's has the correlation ρ = a
+    """Every collision, of which a scatterer has z sqrt(2πT) per unit time, carries an energy over one
+    cell. All
+    three velocities are independent and Gaussian, before and after it. The neighbour's has the correlation
+    ρ = a
     + (1 - a) cos θ with itself, where a = M/(1 + 2M) is the square of its direction cosine with the conserved
     momentum, so that the energy has the mean square T² (1 - mean of ρ²)."""
     options = SHORT | {"times": "5e-4,1e-3", "fit_from": 5e-4, "observation_time": 1e-3}
@@ -122,8 +124,8 @@ def test_sound_must_not_come_around(program: Program) -> None:
     refused = run(cells=int(2 * reach))
     assert refused.returncode == 2
     assert (
-        f"--cells: sound travels around the ring within the last of --times. Choose at least {int(2 * reach) + 1} cells"
-        in refused.stderr
+        "--cells: sound travels around the ring within the last of --times. "
+        f"Choose at least {int(2 * reach) + 1} cells" in refused.stderr
     )
     assert run(cells=int(2 * reach) + 1).returncode == 0
     assert run(cells=int(2 * reach), rule="random-direction").returncode == 0

@@ -1,4 +1,5 @@
-"""Quantities that are functions of others in the same file, calculated again from these, in chains of N, n and γ
+"""Quantities that are functions of others in the same file, calculated again from these, in chains of N, n
+and γ
 that are no powers of two. Errors in the others are found by reference simulators and exact results."""
 
 import importlib
@@ -32,8 +33,10 @@ def sizes(found: object, name: str) -> Iterator[float]:
 
 
 def test_cases_are_not_all_powers_of_two() -> None:
-    """Positions j/N, rates γ/N and logarithms to the base of two are exact for powers of two, so that a comparison
-    of rounded numbers passes. Parameters of results that are made up for panels (plotted.py) compute nothing."""
+    """Positions j/N, rates γ/N and logarithms to the base of two are exact for powers of two, so that a
+    comparison
+    of rounded numbers passes. Parameters of results that are made up for panels (plotted.py) compute
+    nothing."""
     found = []
     for path in sorted((ROOT / "tests/python").glob("test_*.py")):
         module = importlib.import_module(f"tests.python.{path.stem}")
@@ -56,8 +59,8 @@ def middles(times: np.ndarray) -> np.ndarray:
 
 
 def test_local_slope_is_at_the_middle_of_its_times(measure: Measure) -> None:
-    """The last of the times is nearer to the one before than the others. Detected mistake: the middles are those
-    of equal steps."""
+    """The last of the times is nearer to the one before than the others. Detected mistake: the middles are
+    those of equal steps."""
     result = measure("displacement", **RING, decades=1.94, relaxation_time=3, observation_time=50)
     variance, local = result["mean_square_displacement"], result["local_slope"]
     time = variance.axes["time"]
@@ -68,8 +71,8 @@ def test_local_slope_is_at_the_middle_of_its_times(measure: Measure) -> None:
 
 @pytest.mark.parametrize("times", ["3,10,30,90", "0.01,0.5,90"])
 def test_slopes_of_a_filling_chain(measure: Measure, times: str) -> None:
-    """Detected mistakes: slopes begin later than the first time; the curvature is that of n; the front's bins are
-    those of another time."""
+    """Detected mistakes: slopes begin later than the first time; the curvature is that of n; the front's
+    bins are those of another time."""
     result = measure("particle_count", **CHAIN | {"cell_length": 0.07}, times=times)
     number, speeds = result["total_number"], result["weighted_speed_density"]
     time, first = number.axes["time"], float(times.partition(",")[0])
@@ -92,7 +95,8 @@ def test_slopes_of_a_filling_chain(measure: Measure, times: str) -> None:
 
 
 def test_particles_by_speed_are_those_inside(measure: Measure) -> None:
-    """The densities of |p| on linear and on logarithmic bins have equal numbers of particles between common edges,
+    """The densities of |p| on linear and on logarithmic bins have equal numbers of particles between
+    common edges,
     apart from the linear bin around them. Detected mistakes: one sign of p; widths in decades."""
     chain = CHAIN | {"times": "3,10", "momentum_bins": 600, "momentum_max": 30}
     result = measure("particle_count", **chain)
@@ -106,8 +110,8 @@ def test_particles_by_speed_are_those_inside(measure: Measure) -> None:
 
 
 def test_exponent_spread_is_that_of_its_cuts(measure: Measure) -> None:
-    """The exponents of runs with one seed whose cut is each edge of the bins within a factor of three. Detected
-    mistakes: a cut is left out; the spread is that of neighbours."""
+    """The exponents of runs with one seed whose cut is each edge of the bins within a factor of three.
+    Detected mistakes: a cut is left out; the spread is that of neighbours."""
     run = RING | {"relaxation_time": 3, "observation_time": 70, "cell_length": 1.3}
     cuts = 10 ** (np.arange(8, 18) / 10)  # edges from 20/3 to 60, ten per decade
     assert cuts[0] < 20 / 3 < cuts[1]
@@ -121,8 +125,8 @@ def test_exponent_spread_is_that_of_its_cuts(measure: Measure) -> None:
 
 
 def test_waiting_times_of_hot_scatterers_have_bins(measure: Measure) -> None:
-    """Particles that were hit by scatterers of 10^6 times their temperature wait a thousandth as long. Detected
-    mistake: all of them are in the first bin, whose density is then not that of its neighbours."""
+    """Particles that were hit by scatterers of 10^6 times their temperature wait a thousandth as long.
+    Detected mistake: all of them are in the first bin, whose density is then not that of its neighbours."""
     run = RING | {
         "temperature": 1e-6,
         "scatterer_temperature": 1,
@@ -161,8 +165,10 @@ def test_a_kurtosis_of_few_crossings_is_not_defined(measure: Measure) -> None:
 
 
 def closed(energy: np.ndarray, times: np.ndarray) -> list[float]:
-    """Whether both sides of a pulse have met: the mean energy of the four cells opposite to it exceeds 2 % of the
-    largest, or the window of the last peak, at its speed, would have passed half the ring; and from then on."""
+    """Whether both sides of a pulse have met: the mean energy of the four cells opposite to it exceeds 2 %
+    of the
+    largest, or the window of the last peak, at its speed, would have passed half the ring; and from then
+    on."""
     cells, found, speed = energy.shape[1], [], 0.0
     for profile, time in zip(energy, times, strict=True):
         met = profile[[0, 1, -2, -1]].mean() > 0.02 * profile.max() or speed * time > cells / 2
@@ -186,8 +192,8 @@ def closed(energy: np.ndarray, times: np.ndarray) -> list[float]:
 
 @pytest.mark.parametrize("gamma", ["N", 7.3])
 def test_exponents_of_a_pulse_and_its_end(measure: Measure, gamma: str | float) -> None:
-    """Detected mistakes: exponents of other ranges of times or of the logarithm of another quantity; the ring is
-    closed too late, or opens again."""
+    """Detected mistakes: exponents of other ranges of times or of the logarithm of another quantity; the
+    ring is closed too late, or opens again."""
     ring = {"cells": 61, "particles_per_cell": 30, "gamma": gamma, "replicas": 8, "pairs_per_replica": 20}
     result = measure("energy_pulse", **ring, times="0.013,0.017,0.021,0.027,0.033,0.041,0.09,0.3,0.7")
     energy, peak = result["energy_difference"], result["peak"]
@@ -230,8 +236,8 @@ def test_conductivity_is_that_of_its_current_and_temperatures(measure: Measure) 
 
 
 def test_differences_deviations_and_lines_of_a_profile(measure: Measure) -> None:
-    """Eleven cells, of which seven are in the middle half. Detected mistakes: lines through other cells, or not
-    relative; means over cells in place of bonds."""
+    """Eleven cells, of which seven are in the middle half. Detected mistakes: lines through other cells,
+    or not relative; means over cells in place of bonds."""
     result = measure("steady_profile", **OPEN | {"cells": 11})
     mean = {name: quantity.mean for name, quantity in result.quantities.items()}
     cells = np.arange(11)
@@ -255,8 +261,8 @@ def test_differences_deviations_and_lines_of_a_profile(measure: Measure) -> None
 
 
 def test_moments_and_jump_of_the_flux(measure: Measure) -> None:
-    """With narrow bins, and too few replicas for control variates. Detected mistakes: moments of the density, or of
-    both directions; a jump between the middles of the bins."""
+    """With narrow bins, and too few replicas for control variates. Detected mistakes: moments of the
+    density, or of both directions; a jump between the middles of the bins."""
     result = measure("momentum_flux", **OPEN | {"momentum_bins": 6000, "momentum_max": 90, "replicas": 10})
     flux, p = result["flux"].mean, result["flux"].axes["momentum"]
     sides = [np.sign(p) == sign for sign in (-1, 1)]

@@ -13,9 +13,15 @@ from workflow.lib.load import cpu_seconds
 # The jackknife of 2000 replicas takes half of the run time of displacement, so that it is interrupted too.
 LONG = {
     "persistence": {"observation-time": 2000, "replicas": 60},
-    "displacement": {"cells": 5, "particles-per-cell": 3, "relaxation-time": 0, "observation-time": 1, "decades": 11,
-                     "replicas": 2000},
-}  # fmt: skip
+    "displacement": {
+        "cells": 5,
+        "particles-per-cell": 3,
+        "relaxation-time": 0,
+        "observation-time": 1,
+        "decades": 11,
+        "replicas": 2000,
+    },
+}
 
 
 @pytest.mark.parametrize("name", LONG)

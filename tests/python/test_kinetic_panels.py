@@ -47,8 +47,8 @@ def test_fig03() -> None:
 
 
 def test_fig03_inset() -> None:
-    """F_N - F is 0.2/N times a shape with the maximum 1.25 as p -> 0, in units of max F = 10; mean field 0.3/N, in
-    bins of half the width."""
+    """F_N - F is 0.2/N times a shape with the maximum 1.25 as p -> 0, in units of max F = 10; mean field
+    0.3/N, in bins of half the width."""
     p = np.array([-3.0, -1, 1, 3])
     fine = np.arange(-3.5, 4)
 
@@ -97,14 +97,31 @@ def test_fig04() -> None:
     flux = 10 + np.arange(36.0).reshape(9, 4)
     jump = 1 + np.arange(9.0)
     runs = [
-        result(run, chain | rates, "momentum_flux", flux=(flux + shift, {"bond": np.arange(9), "momentum": p}),
-               jump=(jump + shift, {"bond": np.arange(9)}))
-        for run, shift, rates in (("deterministic", 0, {}), ("equal", 2, {"nu_left": 200.0, "nu_right": 200.0}))
-    ]  # fmt: skip
+        result(
+            run,
+            chain | rates,
+            "momentum_flux",
+            flux=(flux + shift, {"bond": np.arange(9), "momentum": p}),
+            jump=(jump + shift, {"bond": np.arange(9)}),
+        )
+        for run, shift, rates in (
+            ("deterministic", 0, {}),
+            ("equal", 2, {"nu_left": 200.0, "nu_right": 200.0}),
+        )
+    ]
     runs += [
-        result(run, chain | rates, "boltzmann", flux=(flux - 1, {"x": np.arange(9) / 8, "momentum": p}), jump=(jump - shift, {"x": np.arange(9) / 8}))
-        for run, shift, rates in (("mean-field", 0.5, {}), ("mean-field-equal", 0.7, {"nu_left": 200.0, "nu_right": 200.0}))
-    ]  # fmt: skip
+        result(
+            run,
+            chain | rates,
+            "boltzmann",
+            flux=(flux - 1, {"x": np.arange(9) / 8, "momentum": p}),
+            jump=(jump - shift, {"x": np.arange(9) / 8}),
+        )
+        for run, shift, rates in (
+            ("mean-field", 0.5, {}),
+            ("mean-field-equal", 0.7, {"nu_left": 200.0, "nu_right": 200.0}),
+        )
+    ]
     axes, table, _ = draw("fig04", runs)
     main, near, residual, jumps = axes[:4]
     assert right_scale(main) == pytest.approx(1 / 400)

@@ -27,7 +27,8 @@ def test_includes_run_one_way() -> None:
     assert {(own, layer) for own, layer in included if layer not in BELOW[own] | {own}} == set()
 
 
-# The same for the packages of workflow. All that runs while a panel is rendered is in its script, physics, lib and
+# The same for the packages of workflow. All that runs while a panel is rendered is in its script, physics,
+# lib and
 # render, which its identity hashes, or in `inputs` of the panel. Nothing outside of the study imports it.
 PYTHON = {
     "lib": set(),

@@ -15,7 +15,8 @@ SIZES = np.array([4, 8, 16, 32, 64, 128])
 
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Function that makes a result with this CPU time and relative error, of which control variates are a third."""
+    """Function that makes a result with this CPU time and relative error, of which control variates are a
+    third."""
     seconds = {}
     monkeypatch.setattr(accuracy, "cpu_seconds", lambda path: seconds[path])
 
@@ -31,8 +32,8 @@ def run(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 def test_accuracy_has_a_line_through_typical_runs_and_the_cost_of_1_percent(run: Any) -> None:
-    """Lines of κ at γ = N in the smallest chain from N = 16 on, the middle and the largest one; of others through the
-    run of median cost. An error of 80 % is that of a target next to 0."""
+    """Lines of κ at γ = N in the smallest chain from N = 16 on, the middle and the largest one; of others
+    through the run of median cost. An error of 80 % is that of a target next to 0."""
     runs = [run(f"chain_cells={N}", N / 4, 0.01 * N**0.5, cells=N) for N in SIZES]
     runs += [run("rare", 9.0, 0.2, gamma=1.0), run("wild", 1.0, 0.8, "alpha")]
     runs += [run(f"mu_{time}", time, error, "mu") for time, error in ((1.0, 0.001), (2.0, 0.01), (3.0, 0.1))]
@@ -57,8 +58,10 @@ def test_accuracy_has_a_line_through_typical_runs_and_the_cost_of_1_percent(run:
 
 def test_accuracy_has_a_floor_for_a_significant_deviation_and_kinetic_equations(run: Any) -> None:
     """Errors are 1 %: 2 % of deviation are below two errors of the difference."""
-    runs = [run(name, 1.0, 0.01, relaxation_time=time, kappa=kappa)
-            for name, time, kappa in (("reference", 100.0, 50.0), ("cold", 7.0, 40.0), ("warm", 2.0, 51.0))]  # fmt: skip
+    runs = [
+        run(name, 1.0, 0.01, relaxation_time=time, kappa=kappa)
+        for name, time, kappa in (("reference", 100.0, 50.0), ("cold", 7.0, 40.0), ("warm", 2.0, 51.0))
+    ]
     runs += [
         run(f"kinetic_{gamma=}_{k=}", k, 10.0**-k, gamma=gamma, program="boltzmann")
         for gamma in (1, 5)
@@ -82,8 +85,8 @@ def test_accuracy_has_a_floor_for_a_significant_deviation_and_kinetic_equations(
 
 
 def test_stability() -> None:
-    """Drifts of 1 times the time by the formula printed, of a tenth with the rule of the programs; currents of
-    1.001 times the exact ones, with errors of 1 %."""
+    """Drifts of 1 times the time by the formula printed, of a tenth with the rule of the programs;
+    currents of 1.001 times the exact ones, with errors of 1 %."""
     runs = []
     for rule, factor in (("elastic", 0.1), ("printed", 1.0)):
         for time in (1.0, 100.0):

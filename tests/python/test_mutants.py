@@ -1,6 +1,7 @@
-"""Mistakes that tests must find: each patch of tests/mutants, or of a folder `mutants` beside tests of Python, is
-applied to a copy of the sources, whose tests then fail. Its first line states the mistake and, after a semicolon,
-the source and the names of the C++ tests, or the file and the name of a test of Python.
+"""Mistakes that tests must find: each patch of tests/mutants, or of a folder `mutants` beside tests of
+Python, is
+applied to a copy of the sources, whose tests then fail. Its first line states the mistake and, after a
+semicolon, the source and the names of the C++ tests, or the file and the name of a test of Python.
 
 The copy is built once in a folder of its own; for a patch only what it changes is compiled.
 """

@@ -165,7 +165,8 @@ def test_front_of_free_flight(measure: Measure) -> None:
 
 
 def mean_flight(cells: int, probability: float) -> float:
-    """Geometric mean of the cells of a slow particle's flight, each flight counted by its length: from a scatterer
+    """Geometric mean of the cells of a slow particle's flight, each flight counted by its length: from a
+    scatterer
     or, half a cell before the first one, from an opening, to a scatterer or to the other opening."""
     k = np.arange(1, cells + 1)
     scattered = probability * (1 - probability) ** (k - 1)
@@ -180,8 +181,8 @@ def mean_flight(cells: int, probability: float) -> float:
 
 @pytest.mark.parametrize("gamma", ["N", 13.7])
 def test_front_of_a_filling_chain(measure: Measure, gamma: str | float) -> None:
-    """Flights of k cells are populated up to the speed kλ/t. [eq. 25] is that of k = 1, with half a cell at the
-    openings. Detected mistake: λN/γ in place of the mean, 20 % less at γ = 13.7."""
+    """Flights of k cells are populated up to the speed kλ/t. [eq. 25] is that of k = 1, with half a cell
+    at the openings. Detected mistake: λN/γ in place of the mean, 20 % less at γ = 13.7."""
     cells, times = 37, np.array([100, 250, 700])
     run = EQUAL | {"cells": cells, "gamma": gamma, "cell_length": "1/N", "replicas": 40}
     front = measure("particle_count", **run, times=",".join(map(str, times)))["front"]

@@ -39,9 +39,13 @@ def test_fig01() -> None:
 def test_fig01_inset() -> None:
     time = np.geomspace(1, 64, 7)
     filling = result(
-        "unit-chain", CHAIN, total_number=(3 + 8 * np.log(time), {"time": time}), log_slope=8.0, log_curvature=0.0,
+        "unit-chain",
+        CHAIN,
+        total_number=(3 + 8 * np.log(time), {"time": time}),
+        log_slope=8.0,
+        log_curvature=0.0,
         plateau=([7.5, 7.6], {"time": [4.0, 64.0]}),
-    )  # fmt: skip
+    )
     (above, below), table, _ = draw("fig01_inset", [filling])
     number, error = both(filling["total_number"])
     assert_points(above, (time, number, error))
@@ -55,10 +59,15 @@ def test_fig02_upper() -> None:
     cells = np.arange(8)
     x = (cells + 0.5) / 8
     runs = [
-        result(run, CHAIN | {"gamma": gamma}, temperature_scatterer=(90 + s * cells, {"cell": cells}),
-               temperature_particle=(91 + s * cells, {"cell": cells}), temperature_difference=(-1 - 0.1 * s * cells, {"cell": cells}))
+        result(
+            run,
+            CHAIN | {"gamma": gamma},
+            temperature_scatterer=(90 + s * cells, {"cell": cells}),
+            temperature_particle=(91 + s * cells, {"cell": cells}),
+            temperature_difference=(-1 - 0.1 * s * cells, {"cell": cells}),
+        )
         for run, gamma, s in (("deterministic", "N", 2.0), ("rare", 1, 1.0))
-    ]  # fmt: skip
+    ]
     (above, below), *_ = draw("fig02_upper", runs)
     assert_points(above, *((x, *both(run["temperature_scatterer"])) for run in runs))
     differences = [run["temperature_difference"] for run in runs]
@@ -85,8 +94,10 @@ def test_fig02_lower() -> None:
 
 
 def test_fig08() -> None:
-    """κ = 2 N^0.4 and 3 N in chains, that of the heat N^0.3 and N^0.9, and 7 N^0.2 in mean field, which it has from
-    the current and the temperatures of the ends. Particles carry 100 × 0.02 N of an energy N backwards, or 0.03 N."""
+    """κ = 2 N^0.4 and 3 N in chains, that of the heat N^0.3 and N^0.9, and 7 N^0.2 in mean field, which it
+    has from
+    the current and the temperatures of the ends. Particles carry 100 × 0.02 N of an energy N backwards, or
+    0.03 N."""
     sizes = np.array([4, 8, 16, 32])
     laws = {
         "deterministic": ("N", lambda n: 2 * n**0.4, 0.3, 0.02),
@@ -94,11 +105,22 @@ def test_fig08() -> None:
     }
     baths = {"temperature_left": 80.0, "temperature_right": 120.0}
     runs = [
-        result(f"{series}_cells={n}", CHAIN | baths | {"cells": int(n), "gamma": gamma}, "conductivity", kappa=kappa(n),
-               kappa_heat=n**heat, energy_current=-1.0 * n, particle_current=flow * n,
-               temperature_first=90.0, temperature_last=110.0, stationary=float(n != 16), stationarity_p_value=0.5)
-        for series, (gamma, kappa, heat, flow) in laws.items() for n in sizes
-    ]  # fmt: skip
+        result(
+            f"{series}_cells={n}",
+            CHAIN | baths | {"cells": int(n), "gamma": gamma},
+            "conductivity",
+            kappa=kappa(n),
+            kappa_heat=n**heat,
+            energy_current=-1.0 * n,
+            particle_current=flow * n,
+            temperature_first=90.0,
+            temperature_last=110.0,
+            stationary=float(n != 16),
+            stationarity_p_value=0.5,
+        )
+        for series, (gamma, kappa, heat, flow) in laws.items()
+        for n in sizes
+    ]
     of_size = {int(n): CHAIN | baths | {"cells": int(n)} for n in sizes}
     runs += [
         result(f"mean-field_cells={n}", chain, "boltzmann", kappa=7 * n**0.2) for n, chain in of_size.items()

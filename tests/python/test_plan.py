@@ -122,7 +122,7 @@ def test_effort_of_quality_panel_and_series(
     ("name", "message"),
     [
         ("smoke_seed=-1", "SEED=-1 is invalid; give a whole number from 0 to 10^18 - 1"),
-        ("smoke_error=2%", "ERROR=2% is invalid; give a number greater than 0 and less than 1, as 0.02 for 2 %"),
+        ("smoke_error=2%", "ERROR=2% is invalid; give a number greater than 0 and less than 1"),
         ("smoke_error=0.30000000000000004", "0.30000000000000004 is 0.3"),
         ("smoke_erorr=1", "erorr=1 is no effort; did you mean error?"),
         ("smoke_error=0.1_replicas=2", "ERROR and REPLICAS both determine"),

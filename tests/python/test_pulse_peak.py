@@ -92,8 +92,13 @@ def test_pulse_peak_of_free_flight_is_exact(measure: Measure) -> None:
 
 SEEDS, REPLICAS = 70, 24
 OF_THE_PEAK = (
-    "peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from", "damping_exponent",
-)  # fmt: skip
+    "peak",
+    "peak_position",
+    "peak_speed",
+    "local_damping_exponent",
+    "damping_exponent_from",
+    "damping_exponent",
+)
 RINGS = {
     "N": {"cells": 41, "times": "0.007,0.01,0.014,0.02"},
     1: {"cells": 80, "times": "0.006,0.008,0.012,0.018"},

@@ -1,7 +1,8 @@
-"""Every panel of the release, drawn from its results in data/paper, has the recorded caption, table and lines.
+"""Every panel of the release, drawn from its results in data/paper, has the recorded caption, table and
+lines.
 
-What was wrong when it was recorded stays: a new table needs a test with numbers calculated by hand. The results are
-read by name, whatever sources and configuration are now. After an intended change of a figure
+What was wrong when it was recorded stays: a new table needs a test with numbers calculated by hand. The
+results are read by name, whatever sources and configuration are now. After an intended change of a figure
 `.venv/bin/python -m tests.python.test_release` records what is drawn now.
 """
 
@@ -72,8 +73,8 @@ def drawn(script: str, runs: list[str]) -> Panel:
 
 
 def test_every_panel_of_the_release_is_as_recorded() -> None:
-    """Without the panels of the study if there is none. Detected mistake: a line of a script, of `lib` or of `physics`
-    changes a number or a caption."""
+    """Without the panels of the study if there is none. Detected mistake: a line of a script, of `lib` or
+    of `physics` changes a number or a caption."""
     found, recorded = {}, json.loads(RECORD.read_text())
     for panel, (script, runs, expected) in recorded.items():
         if (ROOT / script).exists():

@@ -44,8 +44,8 @@ def test_a_band_reaches_one_error_to_either_side_and_a_second_axis_has_its_facto
 
 
 def test_names_of_ends_do_not_overlap() -> None:
-    """Three ends at almost one height, and three at the limits. Detected mistakes: names that overlap, cross, leave
-    the frame, or move without need."""
+    """Three ends at almost one height, and three at the limits. Detected mistakes: names that overlap,
+    cross, leave the frame, or move without need."""
     style.apply()
     figure, axes = plt.subplots()
     axes.set(yscale="log", ylim=(1, 1e4), xlim=(0, 1))

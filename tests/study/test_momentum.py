@@ -26,13 +26,27 @@ def test_momentum() -> None:
         observed("thin-rotation", 0.2, rule="rotation", rotation_probability=0.1),
         observed("thin-reversal", 0.1, rule="reversal", reversal_probability=0.1),
         observed("dense", 0.25, rule="elastic", fugacity=2.0),
-        result("gas-16", ring | {"fugacity": 1 / 3, "cell_length": 3.0, "temperature": 4.0, "rule": "elastic"},
-               "heat_current", mean_square_heat=([60.0, 90.0], {"time": [2.0, 5.0]}),
-               local_exponent=([1.4], {"middle": [3.0]})),
-        *(result(f"deterministic_cells={n}", CHAIN | {"cells": n, "rule": "elastic"}, "conductivity", kappa_heat=7.0 * n,
-                 temperature_first=90.0, temperature_last=110.0, stationary=1.0, stationarity_p_value=0.5)
-          for n in (16, 32)),
-    ]  # fmt: skip
+        result(
+            "gas-16",
+            ring | {"fugacity": 1 / 3, "cell_length": 3.0, "temperature": 4.0, "rule": "elastic"},
+            "heat_current",
+            mean_square_heat=([60.0, 90.0], {"time": [2.0, 5.0]}),
+            local_exponent=([1.4], {"middle": [3.0]}),
+        ),
+        *(
+            result(
+                f"deterministic_cells={n}",
+                CHAIN | {"cells": n, "rule": "elastic"},
+                "conductivity",
+                kappa_heat=7.0 * n,
+                temperature_first=90.0,
+                temperature_last=110.0,
+                stationary=1.0,
+                stationarity_p_value=0.5,
+            )
+            for n in (16, 32)
+        ),
+    ]
     (sizes, noise, gases), table, caption = draw("momentum", runs, "study")
     # In units of the ring's λ and T the conductivity is 90/(2 · 5 · 3 · 4²·⁵), and κ is N √T times as large.
     green_kubo = 90 / (2 * 5 * 3 * 32) * 16 * 10
@@ -59,8 +73,16 @@ def ring(times: list[float], error: float, power: float = 4 / 3, **options: obje
         return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, 0)
 
     middle = np.sqrt(time[1:] * time[:-1])
-    parameters = {"temperature": 1.0, "cell_length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit_from": 2.0,
-                  "rule": "elastic", "replicas": 64}  # fmt: skip
+    parameters = {
+        "temperature": 1.0,
+        "cell_length": 1.0,
+        "sigma": -0.5,
+        "fugacity": 0.8,
+        "cells": 100,
+        "fit_from": 2.0,
+        "rule": "elastic",
+        "replicas": 64,
+    }
     quantities = {
         "mean_square_heat": quantity(time**power, error, time=time),
         "local_exponent": quantity(np.full(len(middle), power), error, middle=middle),

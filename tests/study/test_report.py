@@ -81,7 +81,8 @@ FRAME = """<iframe src="report.html" width="{width}" height="844"></iframe>
 <script>addEventListener("message", event => document.body.textContent = event.data)</script>"""
 PROBE = """<script>addEventListener("load", () => {
 const size = one => parseFloat(getComputedStyle(one).fontSize), page = document.documentElement;
-const figures = [...document.images].filter(one => one.offsetParent).map(one => [one.closest("figure").id, one.clientWidth,
+const shown = [...document.images].filter(one => one.offsetParent);
+const figures = shown.map(one => [one.closest("figure").id, one.clientWidth,
   one.clientWidth / one.naturalWidth, one.parentElement.scrollWidth - one.parentElement.clientWidth,
   size(one.closest("figure").querySelector("figcaption"))]);
 parent.postMessage(JSON.stringify([page.scrollWidth - page.clientWidth, figures]), "*") })</script>"""

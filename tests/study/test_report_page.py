@@ -57,7 +57,8 @@ def judged(verdict: str) -> list[Judgement]:
 def test_the_answer_follows_from_verdicts_and_has_their_numbers(
     verdict: str, answer: str, tmp_path: Path
 ) -> None:
-    """Without a release. Detected mistake: the largest and the smallest of several quantities without labels."""
+    """Without a release. Detected mistake: the largest and the smallest of several quantities without
+    labels."""
     page = rendered(judged(verdict), WITHOUT_PANELS, tmp_path, release=False).decode()
     assert answer in page
     assert "with β = 0.2500(20) to 0.5000(10)" in page

@@ -134,7 +134,8 @@ def test_table_and_picture_have_the_numbers() -> None:
 
 
 def test_bands_with_one_edge_are_open() -> None:
-    """Rectangles from the edge of the strip to that of the frame. Detected mistake: open to the other side."""
+    """Rectangles from the edge of the strip to that of the frame. Detected mistake: open to the other
+    side."""
     table = verdicts.tabulate(JUDGED, {})
     axes, _ = plotted(table)
     strip, *found = (

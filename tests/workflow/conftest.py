@@ -59,9 +59,14 @@ class Project:
     def run(self, *command: str | Path, status: int = 0, **environment: str) -> Done:
         """Runs a command with PATH and the variables given."""
         done = subprocess.run(
-            command, cwd=self.folder, env=plain() | environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-            text=True, check=False,
-        )  # fmt: skip
+            command,
+            cwd=self.folder,
+            env=plain() | environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
         assert done.returncode == status, done.stdout
         return done
 

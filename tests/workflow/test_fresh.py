@@ -159,7 +159,8 @@ def test_a_wrong_result_is_refused_and_takes_no_other_panel_with_it(project: Pro
 
 
 def test_a_mistake_in_a_script_keeps_the_former_files_and_is_one_line(project: Project) -> None:
-    """Detected mistakes: Snakemake deletes the files before the script starts; the reason of a former failure."""
+    """Detected mistakes: Snakemake deletes the files before the script starts; the reason of a former
+    failure."""
     before = project.files("figures/smoke")
     append("workflow/figures/mu.py", "x = 1 / 0\n")(project)
     number = len((project.folder / "workflow/figures/mu.py").read_text().splitlines())

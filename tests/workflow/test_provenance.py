@@ -70,18 +70,27 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
             write("data/smoke/mu/mine.h5"),
             write("figures/smoke/mine.pdf"),
         ],
-        "audit", 0, [],
+        "audit",
+        0,
+        [],
     ),
     "results": (
-        [edit_value, remove(OTHER_MU)], "status", 1,
+        [edit_value, remove(OTHER_MU)],
+        "status",
+        1,
         [
             ("edited", MU, "edited or damaged"),
             ("missing", OTHER_MU, ""),
         ],
     ),
     "files": (
-        [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")], "status", 1,
-        [("edited", "figures/smoke/mu.csv", "differs from its hash"), ("missing", "figures/smoke/energy.svg", "")],
+        [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")],
+        "status",
+        1,
+        [
+            ("edited", "figures/smoke/mu.csv", "differs from its hash"),
+            ("missing", "figures/smoke/energy.svg", ""),
+        ],
     ),
     "back to former sources": (
         [
@@ -89,7 +98,9 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
             lambda project: project.entry("figures"),
             substitute("workflow/figures/mu.py", "Another", "A test"),
         ],
-        "status", 1, [("stale", "figures/smoke/mu.pdf", "changed: workflow/figures/mu.py")],
+        "status",
+        1,
+        [("stale", "figures/smoke/mu.pdf", "changed: workflow/figures/mu.py")],
     ),
     "sources and options": (
         [
@@ -97,7 +108,8 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
             substitute("workflow/config/paper.yaml", "particles-per-cell: 2", "particles-per-cell: 3"),
             substitute("workflow/figures/mu.py", "A test", "Another"),
         ],
-        "status", 1,
+        "status",
+        1,
         [
             ("stale", OTHER_MU, "and 1 more: sources of persistence"),
             ("stale", FEW, "--particles-per-cell 2, planned is --particles-per-cell 3"),
@@ -106,14 +118,19 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         ],
     ),
     "a number in all files": (
-        [change_all_tables], "audit PANEL=mu", 1, [("edited", "figures/smoke/mu.csv", "compare build/audit/smoke/mu.csv")],
+        [change_all_tables],
+        "audit PANEL=mu",
+        1,
+        [("edited", "figures/smoke/mu.csv", "compare build/audit/smoke/mu.csv")],
     ),
     "another renderer": (
-        [change_all_tables, change_record(renderer="Python 2")], "audit PANEL=mu", 3,
+        [change_all_tables, change_record(renderer="Python 2")],
+        "audit PANEL=mu",
+        3,
         [("not checked", "figures/smoke/mu.csv", "rendered with Python 2, this is Python 3")],
     ),
     "no figures": ([remove("figures/smoke/*")], "status", 3, []),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("case", STATES)

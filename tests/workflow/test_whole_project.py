@@ -12,8 +12,8 @@ pytestmark = pytest.mark.long
 
 
 def test_figures_and_tests_without_the_study(smoke: Path, tmp_path: Path) -> None:
-    """As of a colleague who needs the figures alone. Detected mistake: something of the order imports the study, or
-    names what it has."""
+    """As of a colleague who needs the figures alone. Detected mistake: something of the order imports the
+    study, or names what it has."""
     project = whole_project(tmp_path / "a copy")
     for name in ("build", "data/smoke"):
         shutil.copytree(smoke / name, project.folder / name, symlinks=True, dirs_exist_ok=True)
@@ -42,8 +42,8 @@ ARGUMENTS = {
 
 
 def test_every_target_of_make_help(tmp_path: Path) -> None:
-    """In their order, in a copy with one panel, one program and few tests. Detected mistakes: a target that does not
-    compile, or calls a former script or option."""
+    """In their order, in a copy with one panel, one program and few tests. Detected mistakes: a target
+    that does not compile, or calls a former script or option."""
     project = whole_project(tmp_path)
     for path in [*(tmp_path / "cpp/observables").glob("*.cpp"), *(tmp_path / "tests/cpp").iterdir()]:
         if path.name not in (*KEPT, "persistence.cpp"):

@@ -1,4 +1,5 @@
-"""Numbers with errors as text, and slopes between independent points. Points whose value is NaN are skipped."""
+"""Numbers with errors as text, and slopes between independent points. Points whose value is NaN are
+skipped."""
 
 import numpy as np
 from numpy.typing import ArrayLike

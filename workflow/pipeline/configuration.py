@@ -116,7 +116,8 @@ def read(path: Path, kind: str) -> Document:
 
 
 def _refuse_duplicates(node: Node | None, where: str) -> None:
-    """Raises ConfigurationError for a key that a mapping has twice. The library does not see it beside `<<`."""
+    """Raises ConfigurationError for a key that a mapping has twice. The library does not see it beside
+    `<<`."""
     if isinstance(node, MappingNode):
         keys: set[Any] = set()
         for key, value in node.value:

@@ -7,8 +7,8 @@ from pathlib import Path
 
 
 def lock_products() -> int:
-    """Keeps other commands from making products until this process ends, and those to which it passes the file
-    descriptor that this returns. Raises OSError."""
+    """Keeps other commands from making products until this process ends, and those to which it passes the
+    file descriptor that this returns. Raises OSError."""
     return lock(Path("build"))
 
 

@@ -1,6 +1,7 @@
 """Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
 
-First a summary: whether the file is unmodified, and current here; the panel and the command that makes it. Then
+First a summary: whether the file is unmodified, and current here; the panel and the command that makes it.
+Then
 the results and files that it is made from. Exit status: 0 if the file is unmodified, 1 if it is edited or has
 no metadata, 2 if there is no such file, 3 if it is of other sources or results, so that its bytes are not
 checked.
@@ -105,9 +106,7 @@ def explain_figure(path: Path) -> int:
     path = Path(FIGURES, quality, record_name(panel, identity))
     record = read_record(path)
     if not record:
-        show(
-            f"{State.NOT_CHECKED}, {State.STALE}: the record {path} is not here; this makes the present figure:"
-        )
+        show(f"{State.NOT_CHECKED}, {State.STALE}: {path} is not here; this makes the present figure:")
         show_panel(panel, quality)
         return 3
     edited = sha256(content) not in record["files"].values()

@@ -29,7 +29,8 @@ class ProgramError(ValueError):
 
 
 def is_built(program: str) -> bool:
-    """Whether a program starts and states the hash of its present sources. Neither times nor folders decide."""
+    """Whether a program starts and states the hash of its present sources. Neither times nor folders
+    decide."""
     try:
         done = subprocess.run([PROGRAMS / program, "--version"], capture_output=True, text=True, check=False)
     except OSError:

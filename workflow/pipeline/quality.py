@@ -1,4 +1,5 @@
-"""The quality of products: one of workflow/config/quality, with an effort of the command line in place of its own."""
+"""The quality of products: one of workflow/config/quality, with an effort of the command line in place of
+its own."""
 
 import hashlib
 import re

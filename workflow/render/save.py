@@ -77,8 +77,8 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
 
 
 def write_product(stem: Path, identity: str, contents: Mapping[str, bytes], record: dict[str, Any]) -> None:
-    """Writes the files of a panel or report by kind, and their record, and removes that of former files. Raises
-    OSError."""
+    """Writes the files of a panel or report by kind, and their record, and removes that of former files.
+    Raises OSError."""
     record = record | {"files": {kind: sha256(content) for kind, content in contents.items()}}
     text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
     path = stem.with_name(record_name(stem.name, identity))
