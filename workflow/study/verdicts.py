@@ -135,9 +135,8 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame) -> str:
     hold, nearly, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
     text = f"""
-        Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold, {nearly}
-        nearly,
-        {fail} do not, {undecided} are open. Intervals of the number that decides hold jointly at 95 %
+        Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
+        {nearly} nearly, {fail} do not, {undecided} are open. Intervals of the number that decides hold jointly at 95 %
         confidence. Grey: acceptance band; light: nearly."""
     return f"{text} Small symbols: release." if "release" in table else text
 
