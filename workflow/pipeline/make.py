@@ -121,7 +121,7 @@ class Progress:
         is_due = now > self._next
         if is_due:
             self._next = now + SECONDS
-            self._jobs = f"; jobs: {queue.look() or 'none'}" if queue else ""
+            self._jobs = f"; jobs: {queue.look()}" if queue else ""
         made = self._number - len(self.results)
         minutes = (now - self._begin) / 60
         line = f"{made} of {self._number} results after {minutes:.1f} minutes{self._jobs}"
@@ -148,9 +148,11 @@ def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None
                     status = process.wait(1)
                 except subprocess.TimeoutExpired:
                     if queue and (received or queue.is_lost or not progress.results):
-                        status = end(process, queue)
+                        status = end(process)
                         if queue.is_lost:
                             log.write("No job is left in the queue; the same command submits them again\n")
+                if queue and status is not None:
+                    queue.cancel()
                 progress.update(queue)
     if received:
         print("Stopped; the same command resumes", file=sys.stderr)
@@ -158,16 +160,14 @@ def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None
     return int(status != 0)
 
 
-def end(process: "subprocess.Popen[bytes]", queue: Queue) -> int:
-    """Ends Snakemake, which would first wait for its next look at the queue, up to three minutes, and cancels
-    its jobs. Returns 1."""
+def end(process: "subprocess.Popen[bytes]") -> int:
+    """Ends Snakemake, which would first wait for its next look at a queue, up to three minutes. Returns 1."""
     os.killpg(process.pid, signal.SIGINT)
     try:
         process.wait(5)  # until scripts have ended and their panels have the former files
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
-    queue.cancel()
     return 1
 
 

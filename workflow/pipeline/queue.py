@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 RUN_ID = re.compile(r"SLURM run ID: (\S+)")  # the name of all jobs, in Snakemake's log
+LIMITED = ("timeout", "5")  # seconds; without its server a command of Slurm takes a minute
 
 
 class Queue:
@@ -23,24 +24,26 @@ class Queue:
 
     def look(self) -> str:
         """Numbers of pending jobs, by reason, and of running ones, in words."""
-        name = self._name()
-        command = ["squeue", "--noheader", "--states=all", f"--name={name}", "--format=%T %r"]
+        name, printed = self._name(), self._log.read_text()
+        command = [*LIMITED, "squeue", "--noheader", "--states=all", f"--name={name}", "--format=%T %r"]
         done = subprocess.run(command, capture_output=True, text=True, check=False) if name else None
-        printed = self._log.read_text()
-        idle = done and done.returncode == 0 and not done.stdout and printed == self._printed
-        self._silent = self._silent + 1 if idle else 0
-        self._printed = printed
-        jobs = Counter(line.partition(" ")[::2] for line in done.stdout.splitlines()) if done else Counter()
-        return ", ".join(
-            f"{number} {state.lower()}{f' ({reason})' if state == 'PENDING' else ''}"
-            for (state, reason), number in jobs.items()
-            if state in ("PENDING", "RUNNING")
+        is_known = done is not None and done.returncode == 0
+        lines = done.stdout.splitlines() if done else []
+        idle = is_known and not lines and printed == self._printed
+        self._silent, self._printed = self._silent + 1 if idle else 0, printed
+        if not is_known:
+            return "unknown"
+        jobs = Counter(
+            "running" if state == "RUNNING" else f"pending ({reason})"
+            for state, _, reason in (line.partition(" ") for line in lines)
+            if state in ("RUNNING", "PENDING")
         )
+        return ", ".join(f"{number} {state}" for state, number in jobs.items()) or "none"
 
     def cancel(self) -> None:
         """Cancels all jobs, also those whose number Snakemake has not received or has forgotten."""
         if name := self._name():
-            subprocess.run(["scancel", f"--name={name}"], capture_output=True, check=False)
+            subprocess.run([*LIMITED, "scancel", f"--name={name}"], capture_output=True, check=False)
 
     def _name(self) -> str:
         found = RUN_ID.search(self._log.read_text())
