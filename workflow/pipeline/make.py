@@ -110,7 +110,7 @@ class Progress:
     def __init__(self, products: Iterable[Product], results: Sequence[str]) -> None:
         self.products, self.results = [*products], [*results]  # that are missing
         self._number, self._begin, self._jobs = len(results), time.monotonic(), ""
-        self._next = self._begin + SECONDS / 3  # soon says a queue that jobs cannot run
+        self._next = self._begin + SECONDS / 3  # early, as a queue may state why no job can run
 
     def update(self, queue: Queue | None = None) -> None:
         self.results = missing(self.results)
