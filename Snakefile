@@ -15,6 +15,9 @@ from pathlib import Path
 if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback before onstart
 
+from snakemake.jobs import GroupJob
+from snakemake.logging import logger
+
 from workflow.lib.identity import IDENTITY, ROOT
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
@@ -40,6 +43,15 @@ except ConfigurationError as error:
     sys.exit(str(error))
 except OSError as error:  # another command
     sys.exit(format_os_error(error))
+
+
+def log_error(group, msg=None, log=GroupJob.log_error, **information):
+    """Snakemake drops the message, which is why sbatch refuses a group of jobs, or how the group ended."""
+    logger.error(msg)
+    log(group, msg, **information)
+
+
+GroupJob.log_error = log_error
 
 
 wildcard_constraints:

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -22,6 +23,10 @@ from workflow.render.files import missing
 
 LOG = Path("build/logs/snakemake.log")
 SECONDS = 60  # between two lines of progress, if they do not go to a terminal, and two looks at a queue
+SIGNALLED = range(128, 256)  # exit statuses after a signal
+REFUSED = re.compile(
+    r"sbatch: error: ([^'\n]+)|SLURM status is: '(?!FAILED)(\w+)'|(Job submission failed .+)"
+)
 DONE = {  # of the targets of Snakemake
     "figures": "The figures are in figures/{quality}{except_}. Next: make report {arguments}",
     "panel": "In figures/{quality}: {panels}.pdf and .png .svg .csv",
@@ -56,7 +61,7 @@ def make(plan: Plan, target: str, names: Sequence[str], options: argparse.Namesp
             Path(log).unlink(missing_ok=True)  # of a former failure
         status = snakemake(names or [target], plan.quality.name, options, unmade_products, results)
         if status:
-            if status < 128:
+            if status not in SIGNALLED:
                 report_failure(products)
             return status
     return report_products(plan, target, panels, products)
@@ -83,20 +88,20 @@ def snakemake(
 ) -> int:
     """Makes what is missing of the targets. Returns the exit status: 0, 1, or 128 and the number of a signal.
     What Snakemake prints goes to LOG."""
-    on_cluster = options.profile != "default"
-    words = [f"--workflow-profile=profiles/{options.profile}"]
-    words += [f"--{'jobs' if on_cluster else 'cores'}={options.jobs}"] if options.jobs else []
-    slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
-    resources = [f"{name}={value}" for name, value in slurm.items() if value]
-    words += ["--default-resources", *resources] if resources else []
     what = ["--config", f"quality={quality}", "--", *targets]
-    queue = Queue(LOG) if options.profile == "slurm" else None
     progress = Progress(products, results)
-    status = execute([*words, *what], progress, queue)
-    if queue and queue.abandoned and not progress.results:
-        # All results are there, whatever the queue says: the rest is made here.
-        status = execute(what, progress)
-    return status
+    if options.profile == "default":
+        return execute([*([f"--cores={options.jobs}"] if options.jobs else []), *what], progress)
+    if results:
+        words = [f"--workflow-profile=profiles/{options.profile}"]
+        words += [f"--jobs={options.jobs}"] if options.jobs else []
+        slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
+        resources = [f"{name}={value}" for name, value in slurm.items() if value]
+        words += ["--default-resources", *resources] if resources else []
+        status = execute([*words, *what], progress, Queue(LOG))
+        if status in (0, *SIGNALLED) or progress.results:
+            return status
+    return execute(what, progress)  # all results exist, whatever the queue says: the rest is made here
 
 
 class Progress:
@@ -104,26 +109,32 @@ class Progress:
 
     def __init__(self, products: Iterable[Product], results: Sequence[str]) -> None:
         self.products, self.results = [*products], [*results]  # that are missing
-        self._number, self._begin, self._last = len(results), time.monotonic(), time.monotonic()
+        self._number, self._begin, self._jobs = len(results), time.monotonic(), ""
+        self._next = self._begin + SECONDS / 3  # early, as a queue may state why no job can run
 
-    def update(self) -> None:
+    def update(self, queue: Queue | None = None) -> None:
         self.results = missing(self.results)
         for product in [product for product in self.products if not product.is_incomplete()]:
             self.products.remove(product)
             print(f"{product.name}: {printed_by(product.log) or 'rendered'}", flush=True)
         now = time.monotonic()
+        is_due = now > self._next
+        if is_due:
+            self._next = now + SECONDS
+            self._jobs = f"; jobs: {queue.look()}" if queue else ""
         made = self._number - len(self.results)
-        line = f"{made} of {self._number} results after {(now - self._begin) / 60:.1f} minutes"
+        minutes = (now - self._begin) / 60
+        line = f"{made} of {self._number} results after {minutes:.1f} minutes{self._jobs}"
         if sys.stdout.isatty():
-            print(line, end=" \r", flush=True)
-        elif self._number and now - self._last > SECONDS:
+            print(line.ljust(79), end="\r", flush=True)
+        elif self._number and is_due:
             print(line, flush=True)
-            self._last = now
 
 
 def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None) -> int:
     """Runs Snakemake in a process group of its own, to which signals are passed on: programs write checkpoints.
-    Returns its exit status, 128 and the number of a signal if one has come."""
+    With the queue of a cluster, it ends when all results exist. Returns its exit status, 128 and the number of
+    a signal if one has come."""
     LOG.parent.mkdir(parents=True, exist_ok=True)
     with LOG.open("w") as log:
         command = [PYTHON, "-m", "snakemake", *words]
@@ -131,20 +142,33 @@ def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None
             command, stdout=log, stderr=log, start_new_session=True, pass_fds=[lock_products()]
         )
         with passing_signals(process) as received:
-            while True:
+            status = None
+            while status is None:
                 try:
                     status = process.wait(1)
                 except subprocess.TimeoutExpired:
-                    status = None
-                progress.update()
-                if status is not None:
-                    break
-                if queue and not received and queue.is_done(progress.results):
-                    os.killpg(process.pid, signal.SIGINT)
+                    if queue and (received or queue.is_lost or not progress.results):
+                        status = end(process)
+                        if queue.is_lost:
+                            log.write("No job is left in the queue; the same command submits them again\n")
+                if queue and status is not None:
+                    queue.cancel()
+                progress.update(queue)
     if received:
         print("Stopped; the same command resumes", file=sys.stderr)
-        return 128 + received[0]
+        return SIGNALLED[received[0]]
     return int(status != 0)
+
+
+def end(process: "subprocess.Popen[bytes]") -> int:
+    """Ends Snakemake, which would first wait for its next look at a queue, up to three minutes. Returns 1."""
+    os.killpg(process.pid, signal.SIGINT)
+    try:
+        process.wait(5)  # until scripts have ended and their panels have the former files
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    return 1
 
 
 @contextmanager
@@ -178,18 +202,15 @@ def report_failure(products: Sequence[Product]) -> None:
             print(f"{product.name}: {first[1].splitlines()[-1]} ({first[0]})", file=sys.stderr)
         else:
             without.append(product.name)
+    slurm = [*dict.fromkeys("".join(found) for found in REFUSED.findall(printed_by(str(LOG))))]
     if without:
-        alone = len(without) == len(failed)  # otherwise Snakemake's last line is on the products above
-        reason = f": {reason_in(printed_by(str(LOG)))}" if alone else ""
+        alone = len(without) == len(failed) and not slurm  # otherwise the last line is on something else
+        reason = f": {printed_by(str(LOG)).splitlines()[-1]}" if alone else ""
         print(f"{', '.join(without)}: not made{reason} ({LOG})", file=sys.stderr)
+    for reason in slurm:
+        print(f"Slurm: {reason}", file=sys.stderr)
     if made := len(products) - len(failed):
         print(f"{made} other panel{'s are' if made > 1 else ' is'} made", file=sys.stderr)
-
-
-def reason_in(log: str) -> str:
-    """The reason of a failure in what Snakemake has printed: the last error of sbatch, or the last line."""
-    lines = log.splitlines() or [""]
-    return next((line.strip() for line in reversed(lines) if "sbatch: error:" in line), lines[-1])
 
 
 def printed_by(log: str) -> str:
