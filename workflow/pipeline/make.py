@@ -105,7 +105,8 @@ def snakemake(
 
 
 class Progress:
-    """Prints every product that is made meanwhile, and how many results there are, in a terminal on one line."""
+    """Prints every product that is made meanwhile, and how many results there are, in a terminal on one
+    line."""
 
     def __init__(self, products: Iterable[Product], results: Sequence[str]) -> None:
         self.products, self.results = [*products], [*results]  # that are missing
@@ -132,9 +133,10 @@ class Progress:
 
 
 def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None) -> int:
-    """Runs Snakemake in a process group of its own, to which signals are passed on: programs write checkpoints.
-    With the queue of a cluster, it ends when all results exist. Returns its exit status, 128 and the number of
-    a signal if one has come."""
+    """Runs Snakemake in a process group of its own, to which signals are passed on: programs write
+    checkpoints.
+    With the queue of a cluster, it ends when all results exist. Returns its exit status, 128 and the
+    number of a signal if one has come."""
     LOG.parent.mkdir(parents=True, exist_ok=True)
     with LOG.open("w") as log:
         command = [PYTHON, "-m", "snakemake", *words]
@@ -193,7 +195,8 @@ def passing_signals(process: "subprocess.Popen[bytes]") -> Iterator[list[int]]:
 
 
 def report_failure(products: Sequence[Product]) -> None:
-    """Prints a line for each product that is not made, with the reason from the log of a result or its own."""
+    """Prints a line for each product that is not made, with the reason from the log of a result or its
+    own."""
     failed, without = [product for product in products if product.is_incomplete()], []
     for product in failed:
         logs = [log_of(path) for path in missing(product.parents) if path.endswith(".h5")]
@@ -220,8 +223,8 @@ def printed_by(log: str) -> str:
 
 
 def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: Sequence[Product]) -> int:
-    """Prints where the products are, without those that were edited by hand, and the number of runs with warnings.
-    Returns the exit status: 1 if one was edited."""
+    """Prints where the products are, without those that were edited by hand, and the number of runs with
+    warnings. Returns the exit status: 1 if one was edited."""
     edited = faults_by_edit(panels, products)
     for fault in {*edited.values()}:
         print(f"{fault.path}: {fault.reason}, then repeat the command", file=sys.stderr)

@@ -1,4 +1,5 @@
-"""The jobs of a call of Snakemake on a cluster with Slurm; with another scheduler there is nothing to be said."""
+"""The jobs of a call of Snakemake on a cluster with Slurm; with another scheduler there is nothing to be
+said."""
 
 import re
 import subprocess
@@ -17,7 +18,8 @@ class Queue:
 
     @property
     def is_lost(self) -> bool:
-        """Whether Snakemake waits in vain for jobs that Slurm has forgotten, which it does soon after their end
+        """Whether Snakemake waits in vain for jobs that Slurm has forgotten, which it does soon after
+        their end
         without accounting, or that a failing squeue has made Snakemake forget: at three looks in succession
         there were no jobs, not even ended ones, and Snakemake had printed nothing."""
         return self._silent > 1
