@@ -136,8 +136,8 @@ def caption(table: pd.DataFrame) -> str:
     hold, nearly, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
     text = f"""
         Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
-        {nearly} nearly, {fail} do not, {undecided} are open. Intervals of the number that decides hold jointly at 95 %
-        confidence. Grey: acceptance band; light: nearly."""
+        {nearly} nearly, {fail} do not, {undecided} are open. Intervals of the
+        number that decides hold jointly at 95 % confidence. Grey: acceptance band; light: nearly."""
     return f"{text} Small symbols: release." if "release" in table else text
 
 
