@@ -112,8 +112,10 @@ def test_records_have_the_numbers_of_the_captions(smoke: Path, panel: str) -> No
 
 
 def test_a_sentence_without_its_number_is_left_out() -> None:
-    text = "It is\n    {first}. Later it is {last}, {first} before. The end."
-    assert Caption(text, first="1(2)", last="3") == "It is 1(2). Later it is 3, 1(2) before. The end."
+    """Detected mistake: a sentence ends with `fig.`"""
+    text = "It is\n    {first}. Later it is {last}, {first} in fig. 8 before. The end."
+    whole = "It is 1(2). Later it is 3, 1(2) in fig. 8 before. The end."
+    assert Caption(text, first="1(2)", last="3") == whole
     caption = Caption(text, first="1(2)", last=None)
     assert (caption, caption.numbers) == ("It is 1(2). The end.", {"first": "1(2)"})
     with pytest.raises(KeyError, match="frist"):

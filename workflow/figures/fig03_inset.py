@@ -48,7 +48,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot(line.index, line, color=style.BLACK, label=MEAN_FIELD)
     style.against_size(axes, points.cells)
     axes.set_yscale("log")
-    axes.margins(y=0.25)  # room for the legend
+    axes.margins(y=0.35)  # room for the legend
     units: list[tuple[float, str, style.Look]] = [(1, r"of $\max F$", {})]
     units.append((1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}))
     for height, name in LIMITS:
