@@ -34,7 +34,9 @@ if unknown := {*config} - {"quality"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality=")
 try:
     PLAN = Plan(config.get("quality", DEFAULT_QUALITY))
-    PRODUCTS = [*PLAN, *filter(None, [PLAN.report])]
+    # A panel of the user may not have its script yet.
+    PRODUCTS = [panel for panel in PLAN if panel in PLAN.reported or os.path.exists(panel.script)]
+    PRODUCTS += filter(None, [PLAN.report])
     FILES = {product.name: product.files for product in PRODUCTS}
     PARENTS = {product.name: product.parents for product in PRODUCTS}
     if workflow.is_main_process and not workflow.output_settings.dryrun:
@@ -62,7 +64,9 @@ wildcard_constraints:
 
 onstart:
     stop_at_first_signal()
-    write_atomically({Path(panel.job_path): panel.job().encode() for panel in PLAN})
+    write_atomically(
+        {Path(panel.job_path): panel.job().encode() for panel in PRODUCTS if panel != PLAN.report}
+    )
 
 
 def whole(products):

@@ -79,7 +79,7 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
         if not re.fullmatch(pattern, given[name]):
             raise UsageError(f"{word} is invalid; give {description}")
     needed, _, _ = NEEDED.get(target, "").partition("=")
-    if needed and not given[needed]:
+    if needed and not given[needed].strip():
         raise UsageError(f"{needed} is missing; try make {target} {NEEDED[target]}")
     return argparse.Namespace(**{name.lower(): value for name, value in given.items()})
 

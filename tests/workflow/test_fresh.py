@@ -202,8 +202,12 @@ def test_panels_of_the_user_are_made_by_name_alone(project: Project) -> None:
     """Also with a module and a file of their own."""
     own = project.folder / "own"
     own.mkdir()
-    (own / "panels.yaml").write_text("panels:\n  mine: {uses: [mu], inputs: [own/helper.py]}\n")
     (own / "helper.py").write_text("NUMBER = 3\n")
+    (own / "panels.yaml").write_text("panels:\n  mine: {uses: [mu], inputs: [own/helper.py]}\n")
+    project.one("figures/smoke/mu.csv").unlink()
+    project.entry("figures")  # although there is no script yet
+    assert "mine" in project.entry("status")
+    assert "own/mine.py" in project.entry("panel", "PANEL=mine", status=2)
     shutil.copy(project.folder / "workflow/figures/mu.py", own / "mine.py")
     append("own/mine.py", "from own.helper import NUMBER\nx = NUMBER\n")(project)
     assert project.stale() == set()

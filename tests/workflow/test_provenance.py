@@ -257,12 +257,3 @@ def test_verify_reruns_with_fresh_programs(project: Project) -> None:
     edit_value(project)
     seal(project.one(MU))  # as of another program
     assert ": differs: mu\n" in project.entry("verify", "PANEL=mu", status=1)
-
-
-def test_results_in_git_are_of_the_release(project: Project) -> None:
-    released = project.one(FEW)
-    commit(project)
-    project.run("git", "add", "--force", str(released))
-    substitute("cpp/observables/displacement.cpp", "#include", "int x;\n#include")(project)
-    lines = project.entry("status", status=1).splitlines()
-    assert [released.name in line for line in lines if "of the release" in line] == [True]

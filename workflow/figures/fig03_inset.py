@@ -69,8 +69,8 @@ def caption(table: pd.DataFrame) -> str:
     )
     bounds = dict(zip(("all", "longest"), (name for _, name in LIMITS), strict=True))
     text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and below {longest} in
-        the longest chain. (a), (b) Particles that leave; lines: kinetic equation of N scatterers. (c) As
-        p → 0, if ∫F dp is 1: {largest}."""
+        the longest chain. (a), (b) Particles that leave (points); lines: kinetic equation of N scatterers.
+        (c) As p → 0, if ∫F dp is 1: {largest}."""
     return Caption(text, largest=largest, **bounds)
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 from workflow.lib import style
 from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, holds, plots, require
-from workflow.lib.load import NOT_REACHED, Result
+from workflow.lib.load import Result
 from workflow.lib.text import format_number, format_with_error, listed
 from workflow.physics.closed import persistence_at_momentum, persistence_law
 from workflow.physics.run_parameters import mass
@@ -55,7 +55,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
             "replicas": int(result["mu"].replicas),
-            "converged": result.converged,
+            "usable": result.usable,
         }
         for result in results
     ]
@@ -72,8 +72,8 @@ def caption(table: pd.DataFrame) -> str:
         largest[name] = format_with_error(far.deviation, far.mu_error)
     text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
         (b) Difference from this law, for |σ| ≤ {steep}: up to {paper} in the paper's ring. With {density}
-        particles per cell it is up to {dense}. Dashes: the law at the conserved total momentum Π, random
-        in the paper."""
+        particles per cell it is up to {dense}. Dashes: the law corrected for the conserved total
+        momentum Π, which is random in the paper."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}
@@ -100,7 +100,7 @@ def draw(results: Sequence[Result]) -> Parts:
         line, middle = expected.where(part.sigma != 0), expected[part.sigma == 0]
         below.plot(part.sigma, line, color=look["color"], linestyle=DASHED, zorder=1)
         below.plot(0 * middle, middle, "_", color=look["color"], markersize=9, zorder=1)
-    style.cross_out(above, table.sigma, table.mu, table.converged == NOT_REACHED)
+    style.cross_out(above, table.sigma, table.mu, ~table.usable)
     above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")

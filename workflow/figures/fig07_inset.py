@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import Caption
 from workflow.lib.figure import Parts, plots
-from workflow.lib.load import NOT_REACHED, Result
+from workflow.lib.load import Result
 from workflow.lib.text import format_number, format_with_error
 from workflow.physics.setting import rule
 
@@ -42,7 +42,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "kind": kind(result),
             "relaxation_time": float(result.parameters["relaxation_time"]),
             **result.columns("alpha"),
-            "converged": result.converged,
+            "usable": result.usable,
         }
         for result in results
     ]
@@ -83,7 +83,7 @@ def draw(results: Sequence[Result]) -> Parts:
     for name in dict.fromkeys([*LOOKS, *shown.kind]):
         for axes in (above, below) if name != PAPERS else (above,):
             draw_curve(axes, shown[shown.kind == name], name)
-    style.cross_out(above, shown.sigma, shown.alpha, shown.converged == NOT_REACHED)
+    style.cross_out(above, shown.sigma, shown.alpha, ~shown.usable)
     for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1))

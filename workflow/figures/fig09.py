@@ -101,7 +101,7 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. (a) The central
         cell reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
         {named_start(rest).capitalize()}, the speed is {{first}} cells per time at first and {{last}} at
-        last. {faint}Dashed: (c) the first speed{sound}."""
+        last. {faint}Dashed lines: (c) constant first speed{sound}."""
     return Caption(text, first=first, last=last, spike=spike)
 
 

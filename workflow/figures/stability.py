@@ -116,8 +116,8 @@ def caption(walks: pd.DataFrame, known: pd.DataFrame) -> str:
         walks[walks.observation_time == walks.observation_time.max()].groupby("rule").energy_change.max()
     )
     changes = {rule: scientific(longest[rule]) if rule in longest else None for rule in RULES}
-    text = f"""(a) Energy currents of extreme chains, whose exact values are known, deviate from them
-        (dots) by at most {{score}} standard errors (grey bars: {BAR}). Dotted: rounding error of the
+    text = f"""(a) Energy currents in extreme chains deviate from their exact values (dots) by at most
+        {{score}} standard errors (grey bars: {BAR}). Dotted: rounding error of the
         energy. (b) Relative changes by rounding. {{collisions}} collisions change the energy by
         {{elastic}} as computed here. The paper's formula changes it by {{printed}}."""
     return Caption(text, score=f"{score:.1f}", collisions=scientific(walks.collisions.max()), **changes)

@@ -9,7 +9,7 @@ from workflow.lib.text import listed
 
 FEW = 3  # runs that are named one by one
 WARNINGS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
-WARNINGS |= {NOT_TESTED: "With too few replicas to test whether stationary"}
+WARNINGS |= {NOT_TESTED: "Stationarity not tested, too few replicas"}
 
 
 class Caption(str):
@@ -20,7 +20,7 @@ class Caption(str):
 
     def __new__(cls, text: str, **numbers: str | None) -> "Caption":
         known = {name: number for name, number in numbers.items() if number is not None}
-        sentences = re.split(r"(?<=\.)\s+(?=[A-Z(])", " ".join(text.split()))
+        sentences = re.split(r"(?<=\.)\s+(?=[A-Z({])", " ".join(text.split()))
         missing = numbers.keys() - known.keys()
         names = {one: {name for _, name, *_ in Formatter().parse(one)} for one in sentences}
         kept = [sentence.format(**known) for sentence in sentences if not missing & names[sentence]]

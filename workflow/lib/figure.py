@@ -6,11 +6,8 @@ also hold for the columns of their errors. Anything else is in workflow/lib and 
 `inputs` of the panel. The renderer adds the parameters to the caption (physics/setting.py).
 """
 
-import inspect
-import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -28,7 +25,7 @@ Draw = Callable[[Sequence[Result]], Parts]
 
 @dataclass(frozen=True)
 class Plot:
-    """draw() of a script that plots series by their names. It names others of the panel on stderr."""
+    """draw() of a script that plots series by their names. The caption names others of the panel."""
 
     function: Draw
     series: tuple[str, ...]
@@ -46,11 +43,7 @@ class Plot:
         return [*dict.fromkeys(series for series in own if series not in shown)]
 
     def __call__(self, results: Iterable[Result]) -> Parts:
-        given = [*results]
-        if others := self.not_shown(given):
-            script = Path(inspect.getfile(self.function)).name
-            print(f"Not shown: {listed(others)}; to plot it, extend {script}", file=sys.stderr)
-        return self.function(self.shown(given))
+        return self.function(self.shown(results))
 
 
 def plots(series: str) -> Callable[[Draw], Plot]:

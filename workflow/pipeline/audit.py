@@ -120,7 +120,9 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     if made:
         print(f"{len(made)} panel{'s' if len(made) > 1 else ''} with {len(plotted)} results: {listed}")
     if states.keys() & {State.STALE, State.MISSING}:
-        target = f"panel PANEL={quote(' '.join(names))}" if names else "report"
+        of_user = [panel.name for panel in made if panel not in plan.reported]
+        listed_names = quote(" ".join(names or of_user))
+        target = f"panel PANEL={listed_names}" if names or of_user else "report" if plan.report else "figures"
         print(f"make {target} {plan.quality.arguments} makes stale and missing files")
     if states.keys() - {State.NOT_CHECKED}:
         return 1

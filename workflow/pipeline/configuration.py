@@ -167,6 +167,9 @@ def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document,
     efforts = read(effort, "quality") if effort.exists() or file == first else Document(effort, content={})
     if file == first:
         efforts.require("default", efforts.content, (), "key of this file")
+    elif "default" in efforts.content:
+        text = f"is given in {first.parent.name}/quality alone: give the replicas of each panel here"
+        raise ConfigurationError(efforts.complaint(("default",), text))
     known = panels.content["panels"]
     for name, panel in known.items():
         for series, program in programs_of(panel).items():

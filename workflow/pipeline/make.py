@@ -28,7 +28,7 @@ REFUSED = re.compile(
     r"sbatch: error: ([^'\n]+)|SLURM status is: '(?!FAILED)(\w+)'|(Job submission failed .+)"
 )
 DONE = {  # of the targets of Snakemake
-    "figures": "The figures are in figures/{quality}{except_}. Next: make report {arguments}",
+    "figures": "The figures are in figures/{quality}{except_}",
     "panel": "In figures/{quality}: {panels}.pdf and .png .svg .csv",
     "report": "The report is figures/{quality}/report.html{except_}",
     "gallery": "The gallery is docs/gallery{except_}",
@@ -208,7 +208,7 @@ def report_failure(products: Sequence[Product]) -> None:
     slurm = [*dict.fromkeys("".join(found) for found in REFUSED.findall(printed_by(str(LOG))))]
     if without:
         alone = len(without) == len(failed) and not slurm  # otherwise the last line is on something else
-        reason = f": {printed_by(str(LOG)).splitlines()[-1]}" if alone else ""
+        reason = f": {(printed_by(str(LOG)).splitlines() or ['?'])[-1]}" if alone else ""
         print(f"{', '.join(without)}: not made{reason} ({LOG})", file=sys.stderr)
     for reason in slurm:
         print(f"Slurm: {reason}", file=sys.stderr)
@@ -229,7 +229,7 @@ def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: 
     for fault in {*edited.values()}:
         print(f"{fault.path}: {fault.reason}, then repeat the command", file=sys.stderr)
     unedited = [panel.name for panel in panels if panel.name not in edited]
-    words = {"quality": plan.quality.name, "arguments": plan.quality.arguments, "panels": " ".join(unedited)}
+    words = {"quality": plan.quality.name, "panels": " ".join(unedited)}
     except_ = f", except {', '.join(edited)}" if edited else ""
     if unedited and not (target == "report" and "report" in edited):
         print(DONE[target].format(**words, except_=except_))

@@ -79,7 +79,7 @@ def compile_programs() -> list[str]:
         return []
     if lacking:
         number = f"{len(lacking)} programs" if lacking[1:] else "1 program"
-        print(f"Compiling {number}; all ten take about 70 seconds of CPU time", flush=True)
+        print(f"Compiling {number}: about 7 seconds of CPU time each", flush=True)
     done = subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=False)
     failed = [f"cpp/observables/{name}.cpp" for name in unbuilt()] if done.returncode else []
     if not 0 < len(failed) < len(programs()):
@@ -90,7 +90,9 @@ def compile_programs() -> list[str]:
 
 
 def threads_of(run: Run) -> int:
-    """Threads among which the replicas of a run are divided without waste."""
+    """Threads among which the replicas of a run are divided without waste; 1 without replicas."""
+    if not is_sampled(run.program):
+        return 1
     replicas = run.options.get("replicas", LEAST if "target-error" in run.options else 1)
     return max(1, min(MOST_THREADS, int(replicas) // REPLICAS_PER_THREAD))
 

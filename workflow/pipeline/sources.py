@@ -67,12 +67,14 @@ def code_hashes(cpp: Path = CPP) -> dict[str, str]:
 
 
 def determines(path: str, program: str) -> bool:
-    """Whether a source can change a result of a program: all but other observables, and either the solver
-    of the kinetic equation, or rules and dynamics, which `boltzmann` does not have."""
+    """Whether a source can change a result of a program: all but other observables, the solver of the kinetic
+    equation if the program does not include it, and rules and dynamics if it is not sampled."""
     first, *rest = path.split("/")
     if first == "observables":
         return rest[0].partition(".")[0] == program
-    return first != "boltzmann" if program != "boltzmann" else not SAMPLED.match(path)
+    if first == "boltzmann":
+        return '#include "boltzmann/' in (CPP / f"observables/{program}.cpp").read_text("utf-8")
+    return is_sampled(program) or not SAMPLED.match(path)
 
 
 def code(text: str, path: str) -> str:

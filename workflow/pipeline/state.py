@@ -1,19 +1,16 @@
 """The state of a file: current, stale, edited, missing, or not checked."""
 
-import subprocess
 from collections.abc import Iterable, Mapping
-from contextlib import suppress
 from enum import StrEnum
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from workflow.lib.identity import sha256, siblings
+from workflow.lib.identity import DIGITS, sha256, siblings
 from workflow.lib.load import FormatError, load_provenance
-from workflow.pipeline.plan import Product, Run
+from workflow.pipeline.plan import FIGURES, Product, Run
 from workflow.pipeline.sources import sources_changed
 from workflow.render.files import format_os_error
-from workflow.render.record import read_record
+from workflow.render.record import read_record, record_name
 
 
 class State(StrEnum):
@@ -44,8 +41,7 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
         if not former:
             return Fault(State.MISSING, path, "it is not there")
         differing, nearest = min(former, key=lambda pair: len(pair[0]))
-        released = ["it is of the release"] if nearest in tracked() else []
-        return Fault(State.STALE, nearest, "; ".join([", ".join(differing), *released]))
+        return Fault(State.STALE, nearest, ", ".join(differing))
     return None
 
 
@@ -80,7 +76,8 @@ def faults_of_files(products: Iterable[Product]) -> dict[str, Fault]:
 
 def is_made(product: Product) -> bool:
     """Whether there is a file of it, also of a former one."""
-    return Path(product.files[0]).exists() or bool(siblings(product.record_path))
+    folder, record = Path(FIGURES, product.quality), record_name(product.name, DIGITS * "[0-9a-f]")
+    return Path(f"{product.stem}.{product.formats[0]}").exists() or any(folder.glob(record))
 
 
 def differences_of_result(run: Run, sibling: Path) -> list[str]:
@@ -106,12 +103,3 @@ def differences(product: Product, former: Mapping[str, Any]) -> str:
     differing = [path for path in {**now, **was} if now.get(path) != was.get(path)]
     results = [] if product.parents == former.get("parents") else ["results"]
     return f"changed: {', '.join(differing + results)}"
-
-
-@cache
-def tracked() -> set[str]:
-    """Paths of the results in git, those of the release; none if git does not answer, as in an archive."""
-    with suppress(OSError, subprocess.CalledProcessError):
-        command = ["git", "--git-dir=.git", "ls-files", "data"]
-        return {*subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()}
-    return set()

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
+from shlex import quote
 
 import numpy as np
 
@@ -46,7 +47,8 @@ def verify(plan: Plan, names: Sequence[str], sample: float) -> int:
     if not names:
         made = random.sample(made, min(len(made), max(1, round(sample * len(made)))))
     if not made:
-        print(f"Nothing to verify: run make figures {plan.quality.arguments}")
+        target = f"panel PANEL={quote(' '.join(names))}" if names else "figures"
+        print(f"Nothing to verify: run make {target} {plan.quality.arguments}")
         return 3
     lock(BUILD)
     programs = sorted({runs[path].program for path in made})

@@ -63,7 +63,7 @@ def content_hash(path: str, root: Path = ROOT) -> str:
     if not (root / path).is_dir():
         return sha256((root / path).read_bytes())
     names = sorted(file.relative_to(root).as_posix() for file in (root / path).rglob("*") if file.is_file())
-    kept = [name for name in names if not name.endswith((".pyc", "~")) and "/." not in name]
+    kept = [name for name in names if not name.endswith("~") and not re.search(r"/\.|__pycache__", name)]
     lines = [f"{name} {sha256((root / name).read_bytes())}\n" for name in kept]
     return sha256("".join(lines).encode())
 

@@ -136,9 +136,9 @@ def caption(table: pd.DataFrame) -> str:
     hold, nearly, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
     text = f"""
         Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
-        {nearly} nearly, {fail} do not, {undecided} are open. Intervals of the
-        number that decides hold jointly at 95 % confidence. Grey: acceptance band; light: nearly."""
-    return f"{text} Small symbols: release." if "release" in table else text
+        {nearly} nearly, {fail} do not, {undecided} are open. Bars: joint 95 %
+        confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly."""
+    return f"{text} Small symbols: verdicts of quality paper." if "release" in table else text
 
 
 def draw(results: Sequence[Result]) -> Parts:
