@@ -97,9 +97,10 @@ def caption(results: Sequence[Result]) -> str:
     first, last = (found[0], found[-1]) if found else (None, None)
     names = {-2 / 3: "2/3 (sound)", -1 / 2: "1/2 (shock)", -1: "1"}
     laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
+    name = "exponents" if len(guides(results)) > 1 else "exponent"
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
         Exponents fitted over successive octaves of time; {named_start(rest)} the first is {{first}}. The
-        last is {{last}}. Dashed guides, not fits: exponents {{laws}}."""
+        last is {{last}}. Dashed guides, not fits: {name} {{laws}}."""
     return Caption(text, first=first, last=last if len(found) > 1 else None, laws=laws)
 
 

@@ -76,7 +76,7 @@ class Quality:
 
     def with_effort(self, names: str, options: Options, scale: float | None) -> Options:
         """Options of a sampled run with its effort as options of the program, and its seed. names: of panel
-        and run, from which the seed follows; scale: reference value of the error of a target that may be 0."""
+        and run, from which the seed follows; scale: reference value of the error, if the target may be 0."""
         options = merge_efforts(options, {key: value for key, value in self.effort.items() if key != "seed"})
         if "error" in options:
             options["target-error"] = options.pop("error")
