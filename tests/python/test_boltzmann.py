@@ -50,21 +50,6 @@ def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None
     np.testing.assert_allclose(flux[:, inner] - density[:, inner], curvature, atol=1e-5)
 
 
-def test_mean_field_of_three_cells_is_mirrored_by_exchanging_the_baths(solve: Measure) -> None:
-    """What arrives at a scatterer crosses the adjacent bonds."""
-    baths = {"nu_left": 180, "nu_right": 220, "temperature_left": 1100 / 9, "temperature_right": 900 / 11}
-    chain = {"cells": 3, "gamma": "N", "momentum_bins": 600, "momentum_max": 120}
-    result, mirrored = solve(**chain), solve(**chain | baths)
-    for name in ("temperature_scatterer", "temperature_particle"):
-        np.testing.assert_allclose(result[name].mean, mirrored[name].mean[::-1], rtol=1e-9)
-    np.testing.assert_allclose(result["flux"].mean, mirrored["flux"].mean[::-1, ::-1], atol=1e-9)
-    assert result["kappa"].mean == pytest.approx(138.612272635, rel=1e-6)
-    flux, p = result["flux_density"].mean, result["flux_density"].axes["momentum"]
-    arriving = np.where(p > 0, flux[:-1], flux[1:])
-    temperature = (arriving * p**2).sum(axis=1) / arriving.sum(axis=1)
-    np.testing.assert_allclose(temperature, result["temperature_particle"].mean, rtol=1e-4)
-
-
 @pytest.mark.parametrize(
     "options", [{}, {"sigma": -0.9, "gamma": 20}, {"sigma": 0.3}, {"cells": 5, "gamma": 5}]
 )

@@ -78,24 +78,18 @@ def test_every_rule_conducts_where_it_exchanges_energy(
     assert ("--sigma" in done.stderr) == (sigma not in conducts)
 
 
-def test_the_conductivity_of_heat_leaves_out_the_energy_that_particles_carry(
-    program: Program, tmp_path: Path
-) -> None:
-    """Each carries T on average, the mean temperature of both ends."""
-    program("conductivity", cells=4, replicas=32, observation_time=20)
+def test_conductivities_are_those_of_the_currents_and_temperatures(program: Program, tmp_path: Path) -> None:
+    """[eq. 28]. That of heat leaves out the energy that particles carry: T each on average, the mean of both
+    ends. Detected mistakes: the sign; N - 1 gradients; another temperature."""
+    program("conductivity", cells=5, replicas=32, observation_time=20)
     result = load(tmp_path / "out.h5")
-    names = (
-        "energy_current",
-        "particle_current",
-        "temperature_first",
-        "temperature_last",
-        "kappa",
-        "kappa_heat",
-    )
-    energy, particles, first, last, kappa, heat = (float(result[name].mean) for name in names)
-    per_rise = 4 / (last - first)
-    np.testing.assert_allclose(heat, -(energy - (first + last) / 2 * particles) * per_rise, rtol=1e-12)
-    assert abs(heat) > 2 * abs(kappa)  # particles carry energy the other way
+    names = ("energy_current", "particle_current", "temperature_first", "temperature_last")
+    energy, particles, first, last = (float(result[name].mean) for name in names)
+    carried = (first + last) / 2 * particles
+    expected = np.array([energy, energy - carried]) * -5 / (last - first)
+    found = [float(result[name].mean) for name in ("kappa", "kappa_heat")]
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    assert abs(found[1]) > 2 * abs(found[0])  # particles carry energy the other way
 
 
 def test_slow_particles_that_accumulate_bound_the_error_of_the_current(

@@ -2,24 +2,12 @@
 quasi-stationary estimate."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.figures import fig01_inset, fig09
-from workflow.lib.load import Quantity, Result
+from workflow.figures import fig09
+from workflow.lib.load import Result
 from workflow.physics.closed import quasi_stationary
-
-
-def test_slopes_of_a_logarithm_are_its_factor() -> None:
-    time = np.geomspace(1, 100, 11)
-    table = pd.DataFrame({"time": time, "number": 3 + 8 * np.log(time), "number_error": 0.5})
-    slopes = fig01_inset.slopes(table)
-    assert [*slopes.dropna().index] == [1, 4, 7]  # the last step ends at the last time
-    np.testing.assert_allclose(slopes.slope.dropna(), 8)
-    step = 0.3 * np.log(100)
-    np.testing.assert_allclose(slopes.slope_error.dropna(), 0.5 * np.sqrt(2) / step)
-    np.testing.assert_allclose(slopes.slope_time.dropna(), np.sqrt(time[[1, 4, 7]] * time[[4, 7, 10]]))
 
 
 @pytest.mark.parametrize("particles", [2, 20])
@@ -47,18 +35,3 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
     zeta = 50 / (2 * slow)
     speed = np.sqrt(8 * zeta**2 * temperature / ((2 * zeta + 3) * (2 * zeta + 1))) / 2
     assert fig09.sound_speed(Result(ROOT, options, {}, {})) == pytest.approx(speed)
-
-
-@pytest.mark.parametrize(
-    ("speeds", "ends"),
-    [
-        ([np.nan, 400.0, 350.0, 300.0, np.nan], ("400(10)", "300(10)")),
-        ([np.nan, np.nan], (None, None)),
-    ],
-)
-def test_the_caption_states_the_first_and_the_last_speed(speeds: list[float], ends: object) -> None:
-    mean = np.array(speeds)
-    errors = np.where(np.isnan(mean), np.nan, 10.0)
-    axes = {"middle": np.arange(len(mean)) + 1.0}
-    speed = Quantity(mean, errors, None, np.full(len(mean), 8), axes, "1/time", {}, 0)
-    assert fig09.speeds(Result(ROOT, {}, {}, {"peak_speed": speed})) == ends

@@ -123,13 +123,3 @@ def test_stability() -> None:
     assert_line(drifts, [100, 1e4], 2.0**-53 * np.array([10, 100]))
     assert "by at most 0.1 standard errors" in caption
     assert "by 1.0·10¹ as computed here. The paper's formula changes it by 1.0·10²." in caption
-
-
-def test_model_is_a_picture_of_the_tabulated_flights() -> None:
-    axes, table, _ = draw("model", [])
-    ends = table[["start_time", "end_time"]].to_numpy()
-    assert (ends[:, 1] >= ends[:, 0]).all()
-    speeds = (table.end_position - table.start_position) / (table.end_time - table.start_time)
-    moving = table.momentum != 0
-    np.testing.assert_allclose(speeds[moving], table.momentum[moving], rtol=1e-9)
-    assert len(axes) >= 2

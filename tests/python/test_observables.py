@@ -18,17 +18,6 @@ def test_waiting_time_exponent(measure: Measure) -> None:
     assert abs(score(result["exponent"], -3)) > 20
 
 
-def test_displacement_begins_ballistically(measure: Measure) -> None:
-    result = measure(
-        "displacement", sigma=0.5, replicas=400, relaxation_time=0, observation_time=1e-4, decades=1
-    )
-    variance = result["mean_square_displacement"]
-    time = variance.axes["time"]
-    z = (variance.mean / time**2 - 500) / (variance.standard_error / time**2)
-    assert np.abs(z).max() < 4
-    assert np.abs(result["local_slope"].mean - 2).max() < 0.01  # a few particles have collided by then
-
-
 FEW = {"cells": 6, "particles_per_cell": 5, "observation_time": 20, "decades": 1, "relaxation_time": 1}
 
 

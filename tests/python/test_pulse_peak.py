@@ -72,14 +72,20 @@ def test_pulse_peak_of_free_flight_is_exact(measure: Measure) -> None:
     assert np.abs(z).max() < 4.5
 
     tops = np.array([fit(profile) for profile in profiles])
+
+    def exponent(first: int, last: int) -> float:
+        used = slice(first, last + 1)
+        return -float(np.polyfit(np.log(TIMES[used]), np.log(tops[used, 1]), 1)[0])
+
     octaves = [(0, 3), (3, 6)]  # indices of the first and the last time
-    exponents = [-np.polyfit(np.log(TIMES[a : b + 1]), np.log(tops[a : b + 1, 1]), 1)[0] for a, b in octaves]
+    exponents_from = [exponent(first, 6) for first in range(6)]
     wanted = {
         "peak_position": tops[:, 0],
         "peak": tops[:, 1],
         "peak_speed": np.diff(tops[:, 0]) / np.diff(TIMES),
-        "local_damping_exponent": exponents,
-        "damping_exponent": -np.polyfit(np.log(TIMES), np.log(tops[:, 1]), 1)[:1],
+        "local_damping_exponent": [exponent(*ends) for ends in octaves],
+        "damping_exponent_from": exponents_from,
+        "damping_exponent": exponents_from[:1],
     }
     for name, values in wanted.items():
         z = (np.atleast_1d(result[name].mean) - values) / np.atleast_1d(result[name].standard_error)
