@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT, command_line
-from tests.python.plotted import CHAIN, draw, points, result
+from tests.python.plotted import CHAIN, draw, points, result, right_scale
 from workflow.figures import accuracy, fig03_inset, fig09
 from workflow.lib import style
 from workflow.lib.caption import warnings
@@ -55,7 +55,7 @@ def test_points_of_insets_and_of_second_axes_are_counted() -> None:
 
 
 def test_the_frame_of_fig02_upper_follows_the_baths() -> None:
-    """Between T = 50 and T = 200, 25 of 60 points were outside of the frame."""
+    """Between T = 50 and T = 200, 25 of 60 points were outside of the frame. E_K = T/2 is on the right."""
     cells = np.arange(30)
     profile = (60 + 4 * cells, {"cell": cells})
     laws = {
@@ -66,6 +66,7 @@ def test_the_frame_of_fig02_upper_follows_the_baths() -> None:
     baths = {"temperature_left": 50.0, "temperature_right": 200.0}
     (above, _), _, _ = draw("fig02_upper", [result("deterministic", CHAIN | baths, **laws)])
     assert outside(above.figure) == []
+    assert right_scale(above) == pytest.approx(0.5)
     low, high = above.get_ylim()
     assert low < baths["temperature_left"]
     assert high > baths["temperature_right"]

@@ -1,5 +1,5 @@
-"""Integrated heat current in equilibrium against exact results: short times with rotations, and a gas in which
-every collision draws the direction and keeps the speed."""
+"""Integrated heat current in equilibrium against exact results: short times with rotations, and a gas in
+which every collision draws the direction and keeps the speed."""
 
 from functools import partial
 
@@ -30,10 +30,10 @@ def scores(quantity: Quantity, expected: np.ndarray | float) -> np.ndarray:
 def test_short_times_with_rotations_have_the_variance_of_the_energy_that_they_carry(
     heat_current: Measure,
 ) -> None:
-    """Every collision, of which a scatterer has z sqrt(2πT) per unit time, carries an energy over one cell. All
-    three velocities are independent and Gaussian, before and after it. The neighbour's has the correlation
-    ρ = a + (1 - a) cos θ with itself, where a = M/(1 + 2M) is the square of its direction cosine with the
-    conserved momentum, so that the energy has the mean square T² (1 - mean of ρ²)."""
+    """Every collision, of which a scatterer has z sqrt(2πT) per unit time, carries an energy over one cell.
+    All three velocities are independent and Gaussian, before and after it. The neighbour's has the
+    correlation ρ = a + (1 - a) cos θ with itself, where a = M/(1 + 2M) is the square of its direction cosine
+    with the conserved momentum, so that the energy has the mean square T² (1 - mean of ρ²)."""
     times = {"times": "5e-4,1e-3", "fit_from": 5e-4, "observation_time": 1e-3}
     rule = {"rule": "rotation", "rotation_probability": 1, "sigma": 0.5}
     result = heat_current(**times, **rule, cells=100, replicas=40000)

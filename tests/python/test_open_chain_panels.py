@@ -1,7 +1,6 @@
 """Numbers of the panels of open chains, and of those with and without conserved momentum (plotted.py)."""
 
 import numpy as np
-import pytest
 
 from tests.python.plotted import (
     CHAIN,
@@ -11,7 +10,6 @@ from tests.python.plotted import (
     draw,
     over,
     result,
-    right_scale,
 )
 from workflow.figures.fig08 import APART
 
@@ -55,28 +53,6 @@ def test_fig01_inset() -> None:
     assert_points(below, ([8**0.5, 8**1.5], 8, slopes), ([4, 64], *both(filling["plateau"])))
 
 
-def test_fig02_upper() -> None:
-    cells = np.arange(8)
-    x = (cells + 0.5) / 8
-    runs = [
-        result(
-            run,
-            CHAIN | {"gamma": gamma},
-            temperature_scatterer=(90 + s * cells, {"cell": cells}),
-            temperature_particle=(91 + s * cells, {"cell": cells}),
-            temperature_difference=(-1 - 0.1 * s * cells, {"cell": cells}),
-        )
-        for run, gamma, s in (("deterministic", "N", 2.0), ("rare", 1, 1.0))
-    ]
-    (above, below), *_ = draw("fig02_upper", runs)
-    assert_points(above, *((x, *both(run["temperature_scatterer"])) for run in runs))
-    differences = [run["temperature_difference"] for run in runs]
-    assert_points(below, *((x, -difference.mean, difference.error) for difference in differences))
-    for run in runs:
-        assert_line(above, x, run["temperature_particle"].mean)
-    assert right_scale(above) == pytest.approx(0.5)  # E_K = T/2
-
-
 def test_fig02_lower() -> None:
     """The line goes through the middle half, 6 of 12 cells, as that of the programs does."""
     cells = np.arange(12)
@@ -95,9 +71,8 @@ def test_fig02_lower() -> None:
 
 def test_fig08() -> None:
     """κ = 2 N^0.4 and 3 N in chains, that of the heat N^0.3 and N^0.9, and 7 N^0.2 in mean field, which it
-    has from
-    the current and the temperatures of the ends. Particles carry 100 × 0.02 N of an energy N backwards, or
-    0.03 N."""
+    has from the current and the temperatures of the ends. Particles carry 100 × 0.02 N of an energy N
+    backwards, or 0.03 N."""
     sizes = np.array([4, 8, 16, 32])
     laws = {
         "deterministic": ("N", lambda n: 2 * n**0.4, 0.3, 0.02),

@@ -1,5 +1,5 @@
-"""Every panel of the release, drawn from its results in data/paper, has the recorded caption, table and
-lines.
+"""Every panel of the release, drawn from its results in data/paper, has the recorded caption, table,
+lines, error bars and bands.
 
 What was wrong when it was recorded stays: a new table needs a test with numbers calculated by hand. The
 results are read by name, whatever sources and configuration are now. After an intended change of a figure
@@ -26,7 +26,7 @@ from workflow.render.record import RELEASE
 
 RECORD = Path(__file__).with_name("release.json")
 DIGITS = 6  # of the numbers that are compared
-Panel = dict[str, str]  # caption, and hashes of the lines and of every column
+Panel = dict[str, str]  # caption, and hashes of the lines, of the error bars and of every column
 
 
 @cache
@@ -65,9 +65,12 @@ def drawn(script: str, runs: list[str]) -> Panel:
     plt.close(figure)
     table = pd.read_csv(io.StringIO(text), comment="#")
     plotted = [line.get_xydata().ravel() for axes in figure.axes for line in axes.get_lines()]
+    collections = [one for axes in figure.axes for one in axes.collections]
+    bars = [path.vertices.ravel() for one in collections for path in one.get_paths()]
     return {
         "caption": words.caption,
         "lines": fingerprint([*map(fingerprint, plotted)]),
+        "error bars and bands": fingerprint([*map(fingerprint, bars)]),
         **{name: fingerprint(cells) for name, cells in table.items()},
     }
 

@@ -1,4 +1,4 @@
-"""Fonts, bands and axes of the figures, whose labels and colours follow rcParams."""
+"""Fonts, names and axes of the figures, whose labels and colours follow rcParams."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -28,19 +28,6 @@ def test_no_font_but_those_of_matplotlib_is_taken(family: str, monkeypatch: pyte
     assert [path.parent for path in chosen] == [own] * 3
     assert [path.stem for path in chosen] == ["STIXGeneral", "STIXSizOneSymReg", "STIXGeneral"]
     assert foreign not in fonts.ttflist
-
-
-def test_a_band_reaches_one_error_to_either_side_and_a_second_axis_has_its_factor() -> None:
-    """At 3 ± 0.5, and at 10 times the numbers of the first axis."""
-    figure, axes = plt.subplots()
-    style.band(axes, [0, 1], [3, 3], [0.5, 0.5], style.BLUE)
-    heights = axes.collections[0].get_paths()[0].vertices[:, 1]
-    assert (heights.min(), heights.max()) == (2.5, 3.5)
-    axes.set_ylim(0, 4)
-    style.second_axis(axes, 10, "tenths")
-    figure.canvas.draw()
-    np.testing.assert_allclose(axes.child_axes[0].get_ylim(), (0, 40))
-    plt.close(figure)
 
 
 def test_names_of_ends_do_not_overlap() -> None:
