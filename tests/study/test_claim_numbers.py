@@ -6,16 +6,12 @@ over the trials and their mean, both at the p-value LEVEL. An error that is wron
 in all numbers.
 """
 
-import copy
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
 from tests.study.claim_truths import CASES, Case
 from tests.study.known_results import Known, drawn, truth
-from workflow.lib.load import Quantity
 from workflow.study import judge
 from workflow.study.verdict import Estimate
 
@@ -70,34 +66,3 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
     assert not outside(z, dof).any()
     assert outside(z * 2, dof).all()
     assert outside(z / 2, dof).all()
-
-
-def changed(known: Known, path: str) -> Known:
-    """The data with all means of one run changed by different relative amounts of about a thousandth."""
-    run, random = known.loaded[path], np.random.default_rng(1)
-
-    def shifted(quantity: Quantity) -> Quantity:
-        return replace(quantity, mean=quantity.mean * random.uniform(1.001, 1.002, quantity.mean.shape))
-
-    quantities = {
-        name: quantity if name == "stationary" else shifted(quantity)
-        for name, quantity in run.quantities.items()
-    }
-    other = copy.copy(known)
-    other.loaded = known.loaded | {path: replace(run, quantities=quantities)}
-    return other
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: str) -> None:
-    """A number depends on those runs whose change changes it."""
-    known = data(CASES[name])
-    plain = numbers(name, known)
-    fewest = np.full(len(plain), np.inf)
-    for path, run in list(known.loaded.items()):
-        if "seed" not in run.parameters:
-            continue  # computed runs have no replicas
-        for k, number in enumerate(numbers(name, changed(known, path))):
-            if abs(number.value - plain[k].value) > 1e-9 * abs(plain[k].value):
-                fewest[k] = min(fewest[k], run.replicas - 1)
-    np.testing.assert_array_equal([shifted.dof for shifted in plain], fewest)

@@ -14,7 +14,15 @@ from workflow.lib.load import FormatError, Result
 from workflow.study import judge
 from workflow.study.claims import growth
 from workflow.study.claims.fluxes import largest_distance
-from workflow.study.results import MissingError, Results, combination, estimate, octaves, ratio
+from workflow.study.results import (
+    MissingError,
+    Results,
+    combination,
+    estimate,
+    exponent_between,
+    octaves,
+    ratio,
+)
 from workflow.study.verdict import Band, Estimate, Outcome, Verdict, level_of_each
 
 ROWS = judge.read_claims(ROOT)
@@ -137,6 +145,7 @@ def test_errors_of_ratios_and_sums() -> None:
     total = combination([first, second], [1, -2], "d", 1)
     assert (total.value, total.dof, total.systematic) == (-1, 7, 0.1)
     assert total.error == pytest.approx(0.5)
+    assert exponent_between(first, second, 2, "").dof == 7
     scaled = first / -2 - 1
     assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)
 

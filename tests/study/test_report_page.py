@@ -1,13 +1,11 @@
 """Numbers of the report, and its answer by verdict."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.columns import TableError
 from workflow.lib.load import FormatError
 from workflow.lib.text import format_with_error
 from workflow.pipeline.plan import Plan
@@ -71,14 +69,6 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(
         f"C01,as printed,{verdict},first,0.5,0.001,0.0,{verdict}",
     ]
     assert len(lines) == 1 + len(NUMBERS) * claims
-
-
-@pytest.mark.parametrize("label", ["NA", "β #2"])
-def test_numbers_that_would_be_read_as_others_are_refused(label: str) -> None:
-    (one, *_) = judged("reproduced")
-    verdict = replace(one.verdict, numbers=(Estimate(label, 1.0, 0.1),))
-    with pytest.raises(TableError):
-        numbers_file([replace(one, verdict=verdict)])
 
 
 ROWS = {(row["numbers"], row["kind"]): row for row in read_claims(ROOT)}
