@@ -17,6 +17,7 @@ BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
         {"reversal-probability": None, "rule": "reversal"},
         {"zero-total-momentum": True, **RANDOM},
         {"output": None},
+        {"seed": None},  # a default would give two runs of a user equal random numbers
         {"output": "-"},
     ],
     "displacement": [

@@ -44,20 +44,13 @@ def test_a_conductivity_that_is_not_defined(
     assert np.isfinite(result[defined].mean)
 
 
-REVERSAL = [{"rule": "reversal", "reversal_probability": probability} for probability in (0, 0.5)]
-ROTATION = [{"rule": "rotation", "rotation_probability": probability} for probability in (0, 0.5)]
-
-
 @pytest.mark.parametrize(
     ("rule", "conducts"),
     [
         ({"rule": "elastic"}, ()),
-        ({"rule": "printed"}, ()),
         ({"rule": "random-direction"}, (0,)),
-        (REVERSAL[0], ()),
-        (REVERSAL[1], (0,)),
-        (ROTATION[0], ()),
-        (ROTATION[1], (0, 1)),
+        ({"rule": "reversal", "reversal_probability": 0.5}, (0,)),
+        ({"rule": "rotation", "rotation_probability": 0.5}, (0, 1)),
     ],
 )
 @pytest.mark.parametrize("sigma", [-1, 0, 1])
@@ -68,9 +61,6 @@ def test_every_rule_conducts_where_it_exchanges_energy(
     scatterers of infinite mass exchange no energy."""
     times = {"relaxation_time": 10, "observation_time": 40}
     done = program("conductivity", cells=3, sigma=sigma, replicas=32, **times, **rule, progress="log")
-    if rule["rule"] == "printed" and sigma != 0:
-        assert done.returncode == 2
-        return
     assert done.returncode == 0
     result = load(tmp_path / "out.h5")
     assert np.isfinite(result["kappa"].mean) == np.isfinite(result["kappa"].error) == (sigma in conducts)

@@ -81,8 +81,6 @@ REFUSED = [
         "cells: 0",
         ":9: panels.mu.series.all: all_sigma=0 and 1 more: persistence: error: --cells: '0'",
     ),
-    ("cells: 11", "cels: 11", "did you mean --cells?"),
-    ("cells: 11", "cells: 11\n      gamma: 12", "--gamma 12"),
     ("[0, 0.5]", "[0, -3]", "all_sigma=-3: persistence: error: --sigma: '-3'"),
     ("0.05N", "20 + N", "--relaxation-time: '20 + N'"),
     ("warm", "tepid", "empty, warm, cold, hot"),

@@ -12,7 +12,6 @@ from tests.python.conftest import ROOT, command_line
 from workflow.lib.caption import WARNINGS
 from workflow.lib.identity import sha256
 from workflow.lib.load import NOT_TESTED, load
-from workflow.lib.text import format_quantity
 from workflow.render.record import SHARED, panel_identity, read_identity_line, sources_of_panel
 
 
@@ -63,20 +62,3 @@ def test_warnings_of_the_results_of_other_panels(tmp_path: Path) -> None:
     render("fig02_upper", stem, paths)
     (record,) = stem.parent.glob("panel.*.json")
     assert WARNINGS[NOT_TESTED] + ": `deterministic` and `rare`." in json.loads(record.read_text())["caption"]
-
-
-def test_another_collision_is_stated_in_all_files_and_numbers_have_names(tmp_path: Path) -> None:
-    path = tmp_path / "fig02_upper/rare.h5"
-    path.parent.mkdir()
-    options = {"cells": 4, "replicas": 4, "observation-time": 2, "rule": "reversal", "output": path}
-    subprocess.run(command_line("steady_profile", options | {"reversal-probability": 0.25}), check=True)
-    stem = tmp_path / "smoke/panel"
-    render("fig02_upper", stem, [path])
-    (record,) = stem.parent.glob("panel.*.json")
-    described = json.loads(record.read_text())
-    text = "λ = 1/N, the paper's baths. Not the paper's: N = 4 (paper: 30); rule reversal (0.25)."
-    assert described["caption"].endswith(text)
-    assert text in stem.with_suffix(".csv").read_text()
-    first = format_quantity(load(path)["temperature_scatterer"], 0)
-    assert described["numbers"]["first"] == f"{first} at γ = N"
-    assert described["numbers"]["first"] in described["caption"]

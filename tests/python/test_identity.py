@@ -24,16 +24,6 @@ def test_comments_are_removed_as_by_the_preprocessor() -> None:
     assert bare == preprocessed
 
 
-def test_no_other_program_uses_the_sources_of_one() -> None:
-    """Such a source would change results whose identity it is not part of."""
-    include = re.compile(r'#include "((?:observables|boltzmann)/[^"]+)"')
-    for path in (ROOT / "cpp").rglob("*.[ch]pp"):
-        source = path.relative_to(ROOT / "cpp").as_posix()
-        for included in include.findall(path.read_text()):
-            programs = [program for program in PROGRAMS if determines(source, program)]
-            assert all(determines(included, program) for program in programs), f"{source} includes {included}"
-
-
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_all_that_a_program_includes_is_in_its_hash(program: str) -> None:
     """Also what lies in the .cpp beside an included header."""

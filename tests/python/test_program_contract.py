@@ -34,14 +34,6 @@ def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> Non
         assert text.encode() not in content
 
 
-def test_a_seed_has_no_default(program: Program, tmp_path: Path) -> None:
-    """Detected mistake: two runs of a user have equal random numbers, as neither names a seed."""
-    done = program("persistence", seed=None)
-    assert done.returncode == 2
-    assert "--seed" in done.stderr
-    assert not [*tmp_path.iterdir()]
-
-
 @pytest.mark.parametrize("targeted", [True, False])
 def test_there_is_no_error_where_no_particle_turns(program: Program, tmp_path: Path, targeted: bool) -> None:
     target = {"target_error": 0.1, "replicas": None} if targeted else {}

@@ -1,6 +1,5 @@
 """Results with known values for the runs of the plan, with their parameters."""
 
-import copy
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
@@ -95,11 +94,10 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     }
 
 
-def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
+def truth(given: Truth, relative: float) -> Fill:
     """Function that returns the results of a run with given true values: with a standard error, or with a
     discretisation error if the run is not replicated. It is relative to the value, or absolute where the
-    value is 0; a mapping gives it by quantity, with "*" for all others."""
-    relative = relative if isinstance(relative, Mapping) else {"*": relative}
+    value is 0."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         coordinates, quantities = axes(run), {}
@@ -108,7 +106,7 @@ def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
             grids = np.meshgrid(*along.values(), indexing="ij")
             value = given[name](run, *grids) if callable(given[name]) else given[name]
             mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
-            error = relative.get(name, relative["*"]) * np.where(mean == 0, 1, abs(mean))
+            error = relative * np.where(mean == 0, 1, abs(mean))
             # With a target error the number is not that of the option.
             count = np.full(mean.shape, run.options["replicas"] + 47) if sampled(run) else None
             errors = (error, None) if sampled(run) else (None, error)
@@ -116,22 +114,3 @@ def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
         return quantities
 
     return fill
-
-
-def drawn(known: Known, random: np.random.Generator) -> Known:
-    """Data with noise in the results that are loaded: normal means, and errors that are estimated from the
-    number of replicas."""
-
-    def noisy(result: Result) -> Result:
-        quantities = dict(result.quantities)
-        for name, exact in result.quantities.items():
-            if exact.count is not None and name != "stationary":
-                shape, dof = exact.mean.shape, result.replicas - 1
-                mean = exact.mean + exact.error * random.standard_normal(shape)
-                error = exact.error * np.sqrt(random.chisquare(dof, shape) / dof)
-                quantities[name] = replace(exact, mean=mean, standard_error=error)
-        return replace(result, quantities=quantities)
-
-    other = copy.copy(known)
-    other.loaded = {path: noisy(result) for path, result in known.loaded.items()}
-    return other

@@ -145,7 +145,9 @@ def test_errors_of_ratios_and_sums() -> None:
     total = combination([first, second], [1, -2], "d", 1)
     assert (total.value, total.dof, total.systematic) == (-1, 7, 0.1)
     assert total.error == pytest.approx(0.5)
-    assert exponent_between(first, second, 2, "").dof == 7
+    power = exponent_between(first, second, 2, "p")
+    assert (power.value, power.dof) == (pytest.approx(-1), 7)
+    assert power.error == pytest.approx((0.075**2 + 0.1**2) ** 0.5 / np.log(2))
     scaled = first / -2 - 1
     assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)
 
