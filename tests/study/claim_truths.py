@@ -11,13 +11,10 @@ from typing import Any
 import numpy as np
 
 from tests.python.conftest import sampled
-from tests.study.known_results import Truth
+from tests.study.known_results import World
 from workflow.pipeline.plan import Run
 
 COLD, HOT = 900 / 11, 1100 / 9  # temperatures of the baths
-# Exact results: by panel, the true values of the quantities on which the function depends.
-World = Mapping[str, Truth]
-
 # Expected numbers of a claim: values, or pairs of value and systematic error. Without a pair the systematic
 # error is 0.
 Answer = Sequence[float | tuple[float, float]]

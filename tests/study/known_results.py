@@ -1,6 +1,6 @@
 """Results with known values for the runs of the plan, with their parameters."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -12,18 +12,13 @@ from tests.python.conftest import planned, sampled
 from tests.python.described import described
 from workflow.lib.load import Quantity, Result
 from workflow.pipeline.plan import Run
-from workflow.study.results import MissingError, Results
+from workflow.study.results import Results
 
-DEFAULTS = {
-    "cells": "continuum",
-    "zero-total-momentum": False,
-    "rule": "elastic",
-    "gamma": "N",
-}  # defaults of options that the plan does not give
-
-Fill = Callable[[Run], Mapping[str, Quantity]]
+# Defaults of options that the plan does not give.
+DEFAULTS = {"cells": "continuum", "zero-total-momentum": False, "rule": "elastic", "gamma": "N"}
 # True value by quantity: a number, or a function of the run and of the coordinates along each axis.
 Truth = Mapping[str, Any]
+World = Mapping[str, Truth]  # by panel, the true values of the quantities on which a claim depends
 
 
 @cache
@@ -31,42 +26,6 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
     """Names of the axes of every quantity of a program."""
     quantities = described()[program]["quantities"]
     return {quantity["name"]: tuple(axis["name"] for axis in quantity["axes"]) for quantity in quantities}
-
-
-class Known(Results):
-    """Results of the runs of a plan, those of some panels, as the function of the panel returns them. A
-    result is made when a claim first needs it."""
-
-    def __init__(self, fills: Mapping[str, Fill], quality: str = "paper") -> None:
-        super().__init__([])
-        self.fills = fills
-        self.runs = {panel.name: panel.runs for panel in planned(quality)}
-        self.loaded: dict[str, Result] = {}
-
-    def results(self, panel: str, *series: str, **parameters: object) -> list[Result]:
-        wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
-        runs = [
-            run
-            for run in self.runs[panel]
-            if run.series in series
-            and all(run.options.get(name, value) == value for name, value in wanted.items())
-        ]
-        return Results(map(self._load, runs)).results(panel, *series, **parameters)
-
-    def one(self, panel: str, run: str) -> Result:
-        return Results(self._load(one) for one in self.runs[panel] if one.name == run).one(panel, run)
-
-    def _load(self, run: Run) -> Result:
-        path = run.path
-        if run.panel not in self.fills:
-            raise MissingError(f"{path} is missing")
-        if path not in self.loaded:
-            completed = replace(run, options=DEFAULTS | run.options)
-            provenance = {"program": run.program, "converged": "no target"}
-            quantities = dict(self.fills[run.panel](completed))
-            parameters = {name.replace("-", "_"): value for name, value in completed.options.items()}
-            self.loaded[path] = Result(Path(path), parameters, provenance, quantities)
-        return self.loaded[path]
 
 
 def axes(run: Run) -> dict[str, np.ndarray]:
@@ -94,23 +53,28 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     }
 
 
-def truth(given: Truth, relative: float) -> Fill:
-    """Function that returns the results of a run with given true values: with a standard error, or with a
-    discretisation error if the run is not replicated. It is relative to the value, or absolute where the
-    value is 0."""
+def known(world: World, relative: float) -> Results:
+    """Results of the runs of the release with true values: with a standard error, or with a discretisation
+    error if the run is not replicated. It is relative to the value, or absolute where the value is 0."""
+    plan = planned("paper")
+    return Results(
+        _result(run, given, relative) for panel, given in world.items() for run in plan[panel].runs
+    )
 
-    def fill(run: Run) -> dict[str, Quantity]:
-        coordinates, quantities = axes(run), {}
-        for name in (name for name in given if name in axes_of(run.program)):
-            along = {axis: coordinates[axis] for axis in axes_of(run.program)[name]}
-            grids = np.meshgrid(*along.values(), indexing="ij")
-            value = given[name](run, *grids) if callable(given[name]) else given[name]
-            mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
-            error = relative * np.where(mean == 0, 1, abs(mean))
-            # With a target error the number is not that of the option.
-            count = np.full(mean.shape, run.options["replicas"] + 47) if sampled(run) else None
-            errors = (error, None) if sampled(run) else (None, error)
-            quantities[name] = Quantity(mean, *errors, count, along, "1", {}, 0)
-        return quantities
 
-    return fill
+def _result(planned_run: Run, given: Truth, relative: float) -> Result:
+    run = replace(planned_run, options=DEFAULTS | planned_run.options)
+    coordinates, quantities = axes(run), {}
+    for name in given.keys() & axes_of(run.program).keys():
+        along = {axis: coordinates[axis] for axis in axes_of(run.program)[name]}
+        grids = np.meshgrid(*along.values(), indexing="ij")
+        value = given[name](run, *grids) if callable(given[name]) else given[name]
+        mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
+        error = relative * np.where(mean == 0, 1, abs(mean))
+        # With a target error the number is not that of the option.
+        count = np.full(mean.shape, run.options["replicas"] + 47) if sampled(run) else None
+        errors = (error, None) if sampled(run) else (None, error)
+        quantities[name] = Quantity(mean, *errors, count, along, "1", {}, 0)
+    parameters = {name.replace("-", "_"): value for name, value in run.options.items()}
+    provenance = {"program": run.program, "converged": "no target"}
+    return Result(Path(planned_run.path), parameters, provenance, quantities)

@@ -9,7 +9,7 @@ import pytest
 
 from tests.python.conftest import ROOT
 from tests.python.test_release import results_of_release
-from tests.study.known_results import Known, truth
+from tests.study.known_results import known
 from workflow.lib.load import FormatError, Result
 from workflow.study import judge
 from workflow.study.claims import growth
@@ -56,17 +56,17 @@ def test_a_damaged_table_is_reported_in_one_line(tmp_path: Path, damage: Callabl
 
 def test_what_was_not_measured_is_undecided() -> None:
     for row in ROWS:
-        judgement = judge.judge(row, Known({}), 0.05)
+        judgement = judge.judge(row, Results([]), 0.05)
         assert judgement.verdict.outcome is Outcome.UNDECIDED
-        assert "data/paper/" in judgement.missing
+        assert judgement.missing
 
 
-def of_sizes(kappa: Callable[[int], float], still: Callable[[int], bool] = lambda _: True) -> Known:
+def of_sizes(kappa: Callable[[int], float], still: Callable[[int], bool] = lambda _: True) -> Results:
     given = {
         "kappa": lambda run: kappa(run.options["cells"]),
         "stationary": lambda run: float(still(run.options["cells"])),
     }
-    return Known({"fig08": truth(given, 0.01)})
+    return known({"fig08": given}, 0.01)
 
 
 def test_a_power_law_needs_two_octaves() -> None:
