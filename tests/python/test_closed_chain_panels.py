@@ -2,13 +2,13 @@
 
 from itertools import pairwise
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from scipy.integrate import quad
 
 from tests.python.plotted import RING, assert_line, assert_points, both, draw, over, result
-from workflow.figures import fig07_inset, fig10
-from workflow.lib.load import Result
+from workflow.figures import fig07_inset, fig09, fig10
 
 
 def test_fig05() -> None:
@@ -33,10 +33,8 @@ def test_fig05() -> None:
         for series in ("paper", "zero-momentum")
         for x in sigma
     ]
-    (above, below), _, caption = draw("fig05", runs)
-    shown = [over(part, "mu") for part in (runs[:2], runs[2:])]
-    assert_points(above, *((sigma, *each) for each in shown))
-    assert_points(below, *((sigma, 10, 1e3 * error) for _, error in shown))
+    (_, below), _, caption = draw("fig05", runs)
+    assert_points(below, *((sigma, 10, 1e3 * over(part, "mu")[1]) for part in (runs[:2], runs[2:])))
     mass = 11 * np.array([1 / 3, 3]) + 11 * 20 / 3 - 11
     for momentum in (11 * 20 / 3, 0):
         part = (1 - momentum / mass) / mass
@@ -98,7 +96,6 @@ def test_fig07() -> None:
         for run, cells, zero, power, factor in laws
     ]
     (above, below), table, caption = draw("fig07", [runs[2], *runs[:2]])
-    assert_points(above, *((time, *both(run["mean_square_displacement"])) for run in runs))
     assert_points(below, *((np.sqrt(time[1:] * time[:-1]), *both(run["local_slope"])) for run in runs))
     for factor in (0.3, 0.05):
         assert_line(above, time, factor * time**2)
@@ -113,30 +110,6 @@ def test_fig07() -> None:
 
 
 PULSE = RING | {"energy": 5000.0, "pulse_energy": 5e4, "scatterer_temperature": 0.0, "relaxation_time": 1.0}
-
-
-def pulses() -> list[Result]:
-    """Peaks of height 9000/t and 4000/t², at 5 + 300 t and 5 + 200 t, in octaves of the exponents 0.6 and
-    0.8."""
-    time, cells = np.array([0.01, 0.02, 0.04]), np.arange(11)
-    middle = np.sqrt(time[1:] * time[:-1])
-    return [
-        result(
-            run,
-            PULSE | start,
-            energy_difference=(np.outer(1 / time, 100 + cells) * factor, {"time": time, "cell": cells}),
-            ring_closed=([0, 0, 0], {"time": time}),
-            peak=(factor / time**factor, {"time": time}),
-            peak_position=(5 + factor * 100 * time, {"time": time}),
-            peak_speed=([100.0 * factor, 101.0 * factor], {"middle": middle}),
-            local_damping_exponent=([0.6, 0.2 * factor], {"until": time[1:]}),
-            damping_exponent_from=([0.7, 0.71], {"from": time[:-1]}),
-        )
-        for run, start, factor in (
-            ("rest", {}, 3.0),
-            ("gaussian", {"scatterer_temperature": "particles"}, 2.0),
-        )
-    ]
 
 
 def test_fig10() -> None:
@@ -162,13 +135,18 @@ def test_fig10() -> None:
 
 def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:
     """A peak that leaves the centre late, one replica, an exponent that is not defined."""
-    late, single = pulses()
-    late["peak_position"].mean[0] = np.nan
-    axes, *_ = draw("fig09", [late, single])
-    assert_line(axes[2], late["peak"].axes["time"], late["peak_position"].mean[1] * np.array([0.5, 1, 2]))
-    late["peak"].mean[2] = late["local_damping_exponent"].mean[1] = np.nan
+    time = np.array([0.01, 0.02, 0.04])
+    late = result(
+        "late", PULSE,
+        peak=([3.0, 2, np.nan], {"time": time}), peak_position=([np.nan, 11, 17], {"time": time}),
+        peak_speed=([np.nan, 300], {"middle": [0.015, 0.03]}),
+        local_damping_exponent=([0.6, np.nan], {"until": time[1:]}),
+    )  # fmt: skip
+    _, (position, speed) = plt.subplots(2)
+    fig09.draw_motion(position, speed, late)
+    assert_line(position, time, [5.5, 11, 22])
     assert [*fig10.by_octave(late).until] == [0.02, 0.04]
-    single["local_damping_exponent"].error[...] = np.nan
-    assert fig10.exponents(single) == ["0.6(?)", "0.4(?)"]
+    late["local_damping_exponent"].error[...] = np.nan
+    assert fig10.exponents(late) == ["0.6(?)"]
     table = pd.DataFrame({"sigma": [-0.5, 0, 0.2, 0.5], "alpha": [1.1, 1.9, np.nan, 1.2], "alpha_error": 0.1})
     assert [fig07_inset.extreme(table, row) for row in (0, -1)] == ["1.10(10)", "1.20(10)"]

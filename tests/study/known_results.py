@@ -29,11 +29,9 @@ def axes_of(program: str) -> dict[str, tuple[str, ...]]:
 
 
 def axes(run: Run) -> dict[str, np.ndarray]:
-    """Coordinates along every axis that a quantity of the run may have."""
+    """Coordinates along every axis of the quantities of the worlds."""
     cells = run.options["cells"] if isinstance(run.options["cells"], int) else 10
     times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
-    if "decades" in run.options:
-        times = run.options["observation-time"] * np.geomspace(1e-3, 1, 10)
     bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
     positions = run.options.get("positions")
     return {
@@ -44,12 +42,8 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "cell": np.arange(float(cells)),
         "bond": np.arange(cells + 1.0),
         "end": np.arange(2.0),
-        "half": np.array([-1.0, 1.0]),
         "x": np.array(positions.split(","), dtype=float) if positions else np.linspace(0, 1, cells + 1),
-        **dict.fromkeys(
-            ("momentum", "scaled_momentum"), (np.arange(bins) + 0.5) * (2 * largest / bins) - largest
-        ),
-        "distance": np.arange(1.0, cells // 2 + 1),
+        "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
     }
 
 

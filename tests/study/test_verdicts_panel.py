@@ -32,32 +32,19 @@ def number(value: float, error: float, systematic: float = 0.0) -> Estimate:
     return Estimate(f"value {value:g}", value, error, 9, systematic)
 
 
-CLAIMS: dict[str, tuple[Band, Estimate, str]] = {
-    "inside": (Band(2, 4), number(3.5, 0.1, 0.05), "reproduced"),
-    "far below": (Band(0, 1), number(-7, 0.1), "contradicted"),
-    "far above": (Band(0, 1), number(9, 0.1), "contradicted"),
-    "just above": (Band(0, 1), number(1.5, 0.1), "contradicted"),
-    "straddling": (Band(0, 1), number(1.0, 0.1), "undecided"),
-    "above": (Band(0.5, INF), number(0.9, 0.01), "reproduced"),
-    "not above": (Band(0.5, INF), number(0.1, 0.01), "contradicted"),
-    "below": (Band(-INF, -0.5), number(-0.7, 0.01), "reproduced"),
-    "at the edge": (Band(-INF, 0), number(0, 0.1), "undecided"),
-    "unbounded": (Band(0, 1), number(0.5, 0.1, INF), "undecided"),
-    "unknown": (Band(0, 1), number(NAN, NAN), "undecided"),
-}
-# Position and half of the interval on the scale of the band.
-PLOTTED = {
-    "inside": (0.5, HALF * 0.1 + 0.05),
-    "far below": (-15, HALF * 0.2),
-    "far above": (17, HALF * 0.2),
-    "just above": (2, HALF * 0.2),
-    "straddling": (1, HALF * 0.2),
-    "above": (0.4 / (HALF * 0.01) - 1, 1),
-    "not above": (-0.4 / (HALF * 0.01) - 1, 1),
-    "below": (-0.2 / (HALF * 0.01) + 1, 1),
-    "at the edge": (1, 1),
-    "unbounded": (0, INF),
-    "unknown": (NAN, NAN),
+# Acceptance band, number, verdict; position and half of the interval on the scale of the band.
+CLAIMS: dict[str, tuple[Band, Estimate, str, float, float]] = {
+    "inside": (Band(2, 4), number(3.5, 0.1, 0.05), "reproduced", 0.5, HALF * 0.1 + 0.05),
+    "far below": (Band(0, 1), number(-7, 0.1), "contradicted", -15, HALF * 0.2),
+    "far above": (Band(0, 1), number(9, 0.1), "contradicted", 17, HALF * 0.2),
+    "just above": (Band(0, 1), number(1.5, 0.1), "contradicted", 2, HALF * 0.2),
+    "straddling": (Band(0, 1), number(1.0, 0.1), "undecided", 1, HALF * 0.2),
+    "above": (Band(0.5, INF), number(0.9, 0.01), "reproduced", 40 / HALF - 1, 1),
+    "not above": (Band(0.5, INF), number(0.1, 0.01), "contradicted", -40 / HALF - 1, 1),
+    "below": (Band(-INF, -0.5), number(-0.7, 0.01), "reproduced", -20 / HALF + 1, 1),
+    "at the edge": (Band(-INF, 0), number(0, 0.1), "undecided", 1, 1),
+    "unbounded": (Band(0, 1), number(0.5, 0.1, INF), "undecided", 0, INF),
+    "unknown": (Band(0, 1), number(NAN, NAN), "undecided", NAN, NAN),
 }
 
 
@@ -65,7 +52,7 @@ def row(claim: str, kind: str = "as printed") -> dict[str, str]:
     return {"numbers": claim, "kind": kind, "panel": "fig01", "statement": claim, "short": ""}
 
 
-JUDGED = [Judgement(row(name), Verdict(band, (one,), LEVEL)) for name, (band, one, _) in CLAIMS.items()]
+JUDGED = [Judgement(row(name), Verdict(band, (one,), LEVEL)) for name, (band, one, *_) in CLAIMS.items()]
 MISSING = Judgement(row("missing", "as meant"), Verdict(Band(0, 1), (), LEVEL), "no run")
 
 
@@ -90,9 +77,8 @@ def plotted(table: pd.DataFrame) -> tuple[Axes, dict[int, list[Any]]]:
 def test_table_and_picture_have_the_numbers() -> None:
     table = verdicts.tabulate([*JUDGED, MISSING], {})
     axes, lines = plotted(table)
-    assert [*table.verdict] == [verdict for *_, verdict in CLAIMS.values()] + ["undecided"]
-    for y, (name, (band, one, verdict)) in enumerate(CLAIMS.items()):
-        position, half = PLOTTED[name]
+    assert [*table.verdict] == [verdict for _, _, verdict, *_ in CLAIMS.values()] + ["undecided"]
+    for y, (band, one, verdict, position, half) in enumerate(CLAIMS.values()):
         interval = {"position": position, "position_low": position - half, "position_high": position + half}
         numbers = {"value": one.value, "error": one.error, "systematic": one.systematic}
         known = interval | numbers | {"band_low": band.low, "band_high": band.high}
