@@ -15,10 +15,15 @@ from workflow.lib.load import NOT_TESTED, load
 from workflow.render.record import SHARED, panel_identity, read_identity_line, sources_of_panel
 
 
-def render(script: str, stem: Path, paths: list[Path]) -> None:
+def render(script: str, stem: Path, paths: list[Path], status: int = 0) -> str:
+    """Renders a panel; returns what is printed."""
     job = {"script": f"workflow/figures/{script}.py", "stem": str(stem), "results": [*map(str, paths)]}
     command = [sys.executable, "-m", "workflow.render"]
-    subprocess.run(command, cwd=ROOT, check=True, input=json.dumps(job), text=True)
+    done = subprocess.run(
+        command, cwd=ROOT, input=json.dumps(job), stderr=subprocess.PIPE, text=True, check=False
+    )
+    assert done.returncode == status, done.stderr
+    return done.stderr
 
 
 def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: Path) -> None:
@@ -62,3 +67,15 @@ def test_warnings_of_the_results_of_other_panels(tmp_path: Path) -> None:
     render("fig02_upper", stem, paths)
     (record,) = stem.parent.glob("panel.*.json")
     assert WARNINGS[NOT_TESTED] + ": `deterministic` and `rare`." in json.loads(record.read_text())["caption"]
+
+
+def test_a_panel_without_a_value_is_refused_in_one_line(tmp_path: Path) -> None:
+    """Between equal baths κ is undefined. Detected mistake: a traceback, `cannot be log-scaled`."""
+    path = tmp_path / "data/deterministic.h5"
+    path.parent.mkdir()
+    options = {"cells": 4, "replicas": 4, "observation-time": 2, "relaxation-time": 1, "output": path}
+    options |= {"temperature-left": 100, "temperature-right": 100}
+    subprocess.run(command_line("conductivity", options), check=False, stderr=subprocess.DEVNULL)
+    printed = render("fig08", tmp_path / "fig08", [path], status=1)
+    assert printed.startswith("no value to draw: ")
+    assert printed.count("\n") == 1

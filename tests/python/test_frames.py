@@ -1,17 +1,11 @@
 """Nothing that is plotted is lost in silence: points outside of frames, undefined values, series without a
 look."""
 
-import json
-import subprocess
-import sys
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
 
-from tests.python.conftest import ROOT, command_line
 from tests.python.plotted import CHAIN, draw, points, result, right_scale
 from workflow.figures import accuracy, fig03_inset, fig09
 from workflow.lib import style
@@ -98,23 +92,6 @@ def test_a_pulse_is_plotted_at_all_times_shown() -> None:
     fig09.draw_profiles(panel, result("rest", {"cells": 5, "scatterer_temperature": 0.0}, **laws), times)
     assert len(panel.get_lines()) == MANY
     plt.close("all")
-
-
-def test_a_panel_without_a_value_is_refused_in_one_line(tmp_path: Path) -> None:
-    """Between equal baths κ is undefined. Detected mistake: a traceback, `cannot be log-scaled`."""
-    path = tmp_path / "data/deterministic.h5"
-    path.parent.mkdir()
-    options = {"cells": 4, "replicas": 4, "observation-time": 2, "relaxation-time": 1, "output": path}
-    options |= {"temperature-left": 100, "temperature-right": 100}
-    subprocess.run(command_line("conductivity", options), check=False, stderr=subprocess.DEVNULL)
-    job = {"script": "workflow/figures/fig08.py", "stem": str(tmp_path / "fig08"), "results": [str(path)]}
-    command = [sys.executable, "-m", "workflow.render"]
-    done = subprocess.run(
-        command, cwd=ROOT, input=json.dumps(job), capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 1
-    assert done.stderr.startswith("no value to draw: ")
-    assert done.stderr.count("\n") == 1
 
 
 def test_a_figure_with_undefined_and_other_points_is_drawn() -> None:

@@ -59,19 +59,6 @@ def test_displacement_is_confined_between_walls(measure: Measure) -> None:
     np.testing.assert_allclose(free["alpha"].mean, 2, atol=1e-9)
 
 
-def test_a_pulse_has_no_peak_once_it_has_gone_around_the_ring(measure: Measure) -> None:
-    """Fits are those of the times before, also if the peak has passed the far side between two times."""
-    chain = {"cells": 101, "particles_per_cell": 20, "replicas": 4, "pairs_per_replica": 8}
-    all_times = measure("energy_pulse", **chain, times="0.02,0.04,0.08,0.35,0.64,2.56")
-    early = measure("energy_pulse", **chain, times="0.02,0.04,0.08")
-    assert all_times["ring_closed"].mean.tolist() == [0, 0, 0, 1, 1, 1]
-    assert np.isnan(all_times["peak"].mean).tolist() == [False] * 3 + [True] * 3
-    np.testing.assert_allclose(all_times["damping_exponent"].mean, early["damping_exponent"].mean, rtol=1e-12)
-    np.testing.assert_allclose(
-        all_times["damping_exponent"].error, early["damping_exponent"].error, rtol=1e-9
-    )
-
-
 def test_pulse_injects_energy_that_is_conserved(measure: Measure) -> None:
     ring = {"cells": 31, "particles_per_cell": 50, "relaxation_time": 0, "times": "0.001,0.01,0.02"}
     result = measure("energy_pulse", replicas=32, pairs_per_replica=4, **ring)

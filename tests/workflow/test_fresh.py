@@ -190,6 +190,7 @@ def test_a_file_that_a_panel_declares_is_part_of_it(project: Project) -> None:
     text(PAPER, "  mu:\n", "  mu:\n    inputs: [data/points.csv]\n")(project)
     assert project.stale() == {"mu"}
     project.entry("figures")
+    assert "\ndata/points.csv\n" in project.workflow("provenance", "FILE=figures/smoke/mu.png")
     with (project.folder / "data/points.csv").open("ab") as file:
         file.write(b"2")
     assert project.stale() == {"mu"}

@@ -201,13 +201,6 @@ def test_a_read_only_project(project: Project) -> None:
         project.run(*user, ".venv/bin/python", "-I", "-m", "workflow", *words)
 
 
-def test_provenance_names_the_files_that_a_script_reads(project: Project) -> None:
-    (project.folder / "data/points.csv").write_text("1")
-    substitute("workflow/config/paper.yaml", "  mu:\n", "  mu:\n    inputs: [data/points.csv]\n")(project)
-    project.entry("figures")
-    assert "\ndata/points.csv\n" in provenance(project, project.folder / "figures/smoke/mu.png")
-
-
 def test_provenance_of_a_panel_that_is_not_here_suggests_no_command(project: Project) -> None:
     (project.folder / "theirs.csv").write_text("# panel theirs, quality smoke, identity 0123456789ab\n")
     printed = provenance(project, project.folder / "theirs.csv", status=3)
