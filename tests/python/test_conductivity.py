@@ -23,8 +23,6 @@ def test_control_variates_need_replicas(program: Program, tmp_path: Path, gamma:
 @pytest.mark.parametrize(
     ("options", "remedy"),
     [
-        ({"nu_left": 0, "nu_right": 0}, "--nu-right"),
-        ({"temperature_left": 100, "temperature_right": 100}, "--temperature-right"),
         ({"cells": 1}, "--cells"),
         # No particle scatters: the difference of the temperatures is noise.
         ({"gamma": 1e-20, "observation_time": 20, "replicas": 32}, "T_N - T_1"),

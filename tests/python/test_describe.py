@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import ROOT
 from tests.python.described import described, options_of_programs
 
 # Decisions that a reader of a caption, or who chooses an effort, relies on.
@@ -66,12 +66,3 @@ def test_a_run_is_checked_without_computing_it(words: tuple[str, ...], named: tu
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
     assert all(part in done.stderr for part in named), done.stderr
     assert check("persistence", "--cells", "13", "--gamma", "12").returncode == 0
-
-
-def test_a_result_has_the_options_of_its_rule_alone(measure: Measure) -> None:
-    rotation = measure("persistence", rule="rotation", rotation_probability=0.3)
-    assert rotation.parameter_rules == {"rotation_probability": "rotation"}
-    assert rotation.parameters["rotation_probability"] == 0.3
-    elastic = measure("persistence")
-    assert elastic.parameter_rules == {}
-    assert not {"rotation_probability", "reversal_probability"} & elastic.parameters.keys()

@@ -37,25 +37,17 @@ def ids_and_links(text: str) -> tuple[set[str], list[str]]:
 
 
 @pytest.fixture(scope="module")
-def copy(smoke: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the products of this project."""
+def gallery(smoke: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The gallery of this project at smoke quality, in a folder with its products, over a former one."""
     folder = tmp_path_factory.mktemp("copy")
-    for name in ("build", "data", "docs/gallery"):
+    for name in ("build", "data", "docs/gallery", "workflow/study"):
         (folder / name).mkdir(parents=True)
-    (folder / "workflow/study").mkdir(parents=True)
+    (folder / "docs/gallery/removed_panel.png").touch()
     shutil.copy(smoke / "workflow/study/claims.csv", folder / "workflow/study")
-    shutil.copytree(smoke / "data/smoke", folder / "data/smoke")
+    (folder / "data/smoke").symlink_to(smoke / "data/smoke")
     (folder / "figures").symlink_to(smoke / "figures")
-    return folder
-
-
-@pytest.fixture(scope="module")
-def gallery(copy: Path) -> Path:
-    """The gallery of this project at smoke quality, written over a former one."""
-    folder = copy / "docs/gallery"
-    (folder / "removed_panel.png").touch()
-    write("smoke", copy, gallery=True)
-    return folder
+    write("smoke", folder, gallery=True)
+    return folder / "docs/gallery"
 
 
 def test_the_report_is_complete_and_loads_nothing(smoke: Path) -> None:
