@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import pytest
 
-from tests.python.scale import OTHER, ROUNDING, agree
+from tests.python.scale import ROUNDING, agree, factor, other_option
 from workflow.lib.load import Result, load
 from workflow.lib.units import parse
 from workflow.pipeline.program import execute
@@ -77,7 +77,7 @@ def measured(case: str) -> tuple[Result, Result]:
         for name, value in plain.parameters.items()
         if name in plain.parameter_units
     }
-    scaled = {name: OTHER.option(name, value) for name, value in given_or_not.items()}
+    scaled = {name: other_option(name, value) for name, value in given_or_not.items()}
     return plain, call(program, options | scaled)
 
 
@@ -97,7 +97,7 @@ def misfits(plain: Result, scaled: Result, units_of_all: str | None = None) -> s
     return {
         path
         for (path, values, units), (_, converted, _) in zip(datasets(plain), datasets(scaled), strict=True)
-        if not agree(values, converted, OTHER(units_of_all or units), 0 if path in COUNTS else ROUNDING)
+        if not agree(values, converted, factor(units_of_all or units), 0 if path in COUNTS else ROUNDING)
     }
 
 

@@ -16,7 +16,7 @@ import polars as pl
 import pytest
 
 from tests.python.conftest import ROOT
-from tests.python.scale import OTHER, ROUNDING, agree
+from tests.python.scale import ROUNDING, agree, factor, other_result
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv, as_text
 from workflow.lib.figure import Plot
@@ -55,7 +55,7 @@ def tables(folder: Path, panel: str) -> list[pd.DataFrame]:
     missed = [replace(result, provenance=result.provenance | {"converged": NOT_REACHED}) for result in given]
     style.apply()
     drawn = []
-    for results in (missed, [OTHER.result(result) for result in missed]):
+    for results in (missed, [*map(other_result, missed)]):
         _, table, caption = draw(results)
         assert len(table)
         assert "nan" not in caption.split()
@@ -72,9 +72,9 @@ def scales(folder: Path, panel: str, name: str, text: str) -> bool:
     """Whether a column scales according to these units."""
     plain, scaled = tables(folder, panel)
     by_row = text.startswith(BY_ROW)
-    factor = plain[text.removeprefix(BY_ROW)].map(OTHER).to_numpy() if by_row else OTHER(text)
+    scale = plain[text.removeprefix(BY_ROW)].map(factor).to_numpy() if by_row else factor(text)
     values, converted = (table[name].to_numpy(dtype=float) for table in (plain, scaled))
-    return agree(values, converted / factor, 1, ROUNDING)
+    return agree(values, converted / scale, 1, ROUNDING)
 
 
 @pytest.mark.parametrize("panel", OF_RUNS)
