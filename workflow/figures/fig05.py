@@ -73,7 +73,7 @@ def caption(table: pd.DataFrame) -> str:
     text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
         (b) Difference from this law, for |σ| ≤ {steep}: up to {paper} in the paper's ring. With {density}
         particles per cell it is up to {dense}. Dashes: the law corrected for the conserved total
-        momentum Π, which is random in the paper."""
+        momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}
