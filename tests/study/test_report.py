@@ -21,7 +21,7 @@ from workflow.study.report import write
 from workflow.study.results import Results
 from workflow.study.verdict import Outcome
 
-PLAN = Plan("smoke").panels
+PLAN = {panel.name: panel for panel in Plan("smoke").reported}
 IDS = {
     *(number.lower() for row in read_claims(ROOT) for number in row["numbers"].split()),
     *(f"{row['numbers'].lower()[:3]}-as-meant" for row in read_claims(ROOT) if row["kind"] == "as meant"),
