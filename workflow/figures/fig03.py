@@ -65,7 +65,7 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
 def caption(results: Sequence[Result], largest: float) -> str:
     paper = next((result for result in results if case(result) == PAPERS), results[0])
     left, right = (format_number(float(f"{paper['jump'].mean[index]:.4g}")) for index, *_ in ENDS)
-    text = f"""The paper finds that the momentum distribution F(p, x) jumps at p = 0. (a) At the ends it
+    text = f"""The paper finds that the distribution F(p, x) jumps at p = 0. (a) At the ends it
         jumps by {{left}} and {{right}}. (b) Each half divided by a Gaussian of its own rate and second
         moment, where F exceeds {100 * OFTEN:g} % of its maximum: up to {{largest}} % off. Dotted:
         equal temperatures, unequal rates."""

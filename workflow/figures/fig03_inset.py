@@ -68,8 +68,8 @@ def caption(table: pd.DataFrame) -> str:
         for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
     bounds = dict(zip(("all", "longest"), (name for _, name in LIMITS), strict=True))
-    text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and below {longest} in
-        the longest chain. (a), (b) Particles that leave (points); lines: kinetic equation of N scatterers.
+    text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and {longest} in the
+        longest chain. (a), (b) Particles that leave (points); lines: kinetic equation of N scatterers.
         (c) As p → 0, if ∫F dp is 1: {largest}."""
     return Caption(text, largest=largest, **bounds)
 

@@ -68,7 +68,7 @@ def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
         line = np.polyfit(np.log2(long.cells), long.kappa_heat, 1, w=1 / long.kappa_heat_error)
         axes.plot(long.cells, np.polyval(line, np.log2(long.cells)), label=r"$a + b\,\ln N$", **style.GUIDE)
     style.against_size(axes, sizes.cells)
-    axes.set_ylabel(rf"$\kappa$ ({style.UNIT_SYSTEM})")
+    axes.set_ylabel(rf"$\kappa$ of heat alone ({style.UNIT_SYSTEM})")
     axes.legend(loc="upper left")
 
 
@@ -107,7 +107,7 @@ def caption(sizes: pd.DataFrame) -> str:
     text = """(a) Conductivity of heat in fig. 8, and of rings of its gas, ζ = 16/N, in equilibrium: the
         Green–Kubo value at the time in which sound crosses the chain. It has no free parameter, and is
         {ratios} times that of fig. 8. (b) Noise that conserves momentum or breaks it. (c) β of
-        ⟨Q²⟩ ∼ t^β; diffusion has 1."""
+        ⟨Q²⟩ ∼ t^β; diffusion has 1. Dashed: guides, not laws."""
     return Caption(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
 
 
