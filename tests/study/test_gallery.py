@@ -1,6 +1,5 @@
 """The gallery is that of the results of the release, which are in git."""
 
-import os
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +9,7 @@ import pytest
 from PIL import Image
 
 from tests.python.conftest import ROOT
+from tests.workflow.conftest import plain
 from workflow.lib.load import load
 from workflow.pipeline.environment.variables import FIXED
 from workflow.pipeline.plan import PYTHON, Plan, Run
@@ -49,7 +49,7 @@ def test_gallery_is_rendered_from_the_results_of_the_release(tmp_path: Path) -> 
     for panel in plan.reported:
         job = panel.job(f"{tmp_path}/{panel.stem}")
         command = [PYTHON, "-m", "workflow.render"]  # as a command of make executes it
-        subprocess.run(command, cwd=ROOT, input=job, text=True, check=True, env=os.environ | FIXED)
+        subprocess.run(command, cwd=ROOT, input=job, text=True, check=True, env=plain() | FIXED)
     judgements = judge_all(Results(load(ROOT / path) for path in plan["verdicts"].parents))
     assert numbers_file(judgements) == (ROOT / GALLERY / "numbers.csv").read_bytes()
     page = rendered(judgements, plan, tmp_path, release=True)

@@ -15,7 +15,6 @@ import pandas as pd
 import polars as pl
 import pytest
 
-from tests.python.conftest import ROOT
 from tests.python.scale import ROUNDING, agree, factor, other_result
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, TableError, as_csv, as_text
@@ -25,8 +24,9 @@ from workflow.lib.units import UnitsError
 from workflow.pipeline.load_panel import load_panel
 from workflow.pipeline.plan import Plan
 
-SHIPPED = {path.stem for path in (ROOT / "docs/gallery").glob("*.png")}  # not those of the user
-PLAN = {panel.name: panel for panel in Plan("smoke") if panel.name in SHIPPED and panel.plotted}
+REPORTED = Plan("smoke").reported  # not those of the user
+SHIPPED = {panel.name for panel in REPORTED}
+PLAN = {panel.name: panel for panel in REPORTED if panel.plotted}
 
 # `verdicts` plots no runs: its labels and its bands are in the default units, and a series of the user counts
 # for no claim (test_verdicts_panel.py).

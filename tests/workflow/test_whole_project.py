@@ -19,6 +19,8 @@ def test_figures_and_tests_without_the_study(smoke: Path, tmp_path: Path) -> Non
         shutil.copytree(smoke / name, project.folder / name, symlinks=True, dirs_exist_ok=True)
     for name in ("workflow/study", "tests/study"):
         shutil.rmtree(project.folder / name)
+    setup = "workflow/pipeline/environment/setup.sh"
+    shutil.copy(ROOT / setup, project.folder / setup)
     before = project.files("data/smoke")
     project.entry("figures")
     assert project.files("data/smoke") == before
