@@ -118,6 +118,9 @@ def draw(results: Sequence[Result]) -> Parts:
     handles, labels = above.get_legend_handles_labels()
     above.legend(handles[::-1], labels[::-1], loc="upper left")
     below.plot([], [], "o", color="grey", markerfacecolor="white", label="heat alone")
-    below.legend(loc="lower center", ncols=3, columnspacing=1, handletextpad=0.2)
+    beside_mean_field = (0.56, 0)
+    below.legend(
+        loc="lower center", bbox_to_anchor=beside_mean_field, ncols=3, columnspacing=1, handletextpad=0.2
+    )
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
     return figure, whole, caption(table)
