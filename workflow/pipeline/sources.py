@@ -34,10 +34,13 @@ def sha256(text: str) -> str:
     return hashlib.sha256(text.encode("utf-8", "surrogateescape")).hexdigest()
 
 
+@cache
 def source_hash(program: str, cpp: Path = CPP) -> str:
     """Hash of all sources that can change a result of a program, without comments and empty lines, and of
     the numeric flags. Raises OSError."""
-    lines = [f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if determines(path, program)]
+    lines = [
+        f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if determines(path, program, cpp)
+    ]
     return sha256("".join(lines))
 
 
@@ -53,7 +56,13 @@ def programs(cpp: Path = CPP) -> list[str]:
 
 def is_sampled(program: str, cpp: Path = CPP) -> bool:
     """Whether a program averages over replicas, hence has a seed. Raises OSError."""
-    return "StudyProgram" in (cpp / f"observables/{program}.cpp").read_text("utf-8", "surrogateescape")
+    return "StudyProgram" in text_of(program, cpp)
+
+
+@cache
+def text_of(program: str, cpp: Path) -> str:
+    """The main source of a program. Raises OSError."""
+    return (cpp / f"observables/{program}.cpp").read_text("utf-8", "surrogateescape")
 
 
 @cache
@@ -66,15 +75,15 @@ def code_hashes(cpp: Path = CPP) -> dict[str, str]:
     return {path: sha256(code(text, path)) for path, text in texts.items()}
 
 
-def determines(path: str, program: str) -> bool:
+def determines(path: str, program: str, cpp: Path = CPP) -> bool:
     """Whether a source can change a result of a program: all but other observables, the solver of the kinetic
     equation if the program does not include it, and rules and dynamics if it is not sampled."""
     first, *rest = path.split("/")
     if first == "observables":
         return rest[0].partition(".")[0] == program
     if first == "boltzmann":
-        return '#include "boltzmann/' in (CPP / f"observables/{program}.cpp").read_text("utf-8")
-    return is_sampled(program) or not SAMPLED.match(path)
+        return '#include "boltzmann/' in text_of(program, cpp)
+    return is_sampled(program, cpp) or not SAMPLED.match(path)
 
 
 def code(text: str, path: str) -> str:
