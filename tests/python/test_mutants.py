@@ -83,10 +83,18 @@ def test_the_mistake_in_python_is_found(patch: Path, tmp_path: Path) -> None:
         (tmp_path / name).parent.mkdir(exist_ok=True)
         copy(ROOT / name, tmp_path / name)
     (tmp_path / "build").mkdir()
-    (tmp_path / "build/describe").symlink_to(ROOT / "build/describe")
-    subprocess.run(["git", "apply", "--unsafe-paths", "-p1", patch], cwd=tmp_path, check=True)
+    (tmp_path / "build/bin").symlink_to(ROOT / "build/bin")  # tests read what the programs declare
     command = [sys.executable, "-m", "pytest", "-q", patch.parents[1].relative_to(ROOT) / source, "-k", test]
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+
+    def run() -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+        )
+
+    done = run()
+    assert done.returncode == 0, f"{test} fails without the mistake: {done.stdout}"
+    subprocess.run(["git", "apply", "--unsafe-paths", "-p1", patch], cwd=tmp_path, check=True)
+    done = run()
     assert done.returncode == 1, f"no test finds that {mistake}: {done.stdout}"
     assert re.search(rf"^FAILED .*::{test}\b", done.stdout, re.MULTILINE), done.stdout
