@@ -26,7 +26,7 @@ def test_comments_are_removed_as_by_the_preprocessor() -> None:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_all_that_a_program_includes_is_in_its_hash(program: str) -> None:
-    """Also what lies in the .cpp beside an included header."""
+    """Also what is in the .cpp beside an included header."""
     cpp = ROOT / "cpp"
     included: set[str] = set()
     found = {f"observables/{program}.cpp"}

@@ -46,7 +46,7 @@ class Elastic : public ScattererMass {
     const double magnitude = std::ldexp(1.0, std::ilogb(mass) / 2);
     particle_from_scatterer_ = (1 + sigma_) / magnitude;
     scatterer_from_particle_ = (1 - sigma_) * magnitude;
-    set_mass(root_mass, root_mass / magnitude);  // the scale lies in [1/2, 2]
+    set_mass(root_mass, root_mass / magnitude);  // the scale is in [1/2, 2]
   }
 
   /// One collision, in place: u is the velocity of the particle, w the scaled velocity of the scatterer.
