@@ -17,7 +17,7 @@ using namespace lorentz;
 using namespace support;
 
 TEST(Simulate, DoesNotDependOnStopsInBetween) {
-  const ClosedChain chain{11, 20, 1, 0.5};
+  const ClosedChain chain{{.cells = 11}, 20};
   const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
   const std::vector<Collision> whole = collisions(chain, start, 20);
   ASSERT_GT(whole.size(), 10000U);
@@ -37,7 +37,7 @@ TEST(Simulate, DoesNotDependOnStopsInBetween) {
 // Two particles that are mirror images reach the scatterer at 1.5 at the same time, 0.25. The particle with
 // the lower number scatters first, and the other one meets the scatterer in its new state.
 TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
-  const ClosedChain chain{3, 1, 1, 0};
+  const ClosedChain chain{{.cells = 3, .sigma = 0}, 1};
   const Particle left{1.25, 1}, right{1.75, -1}, elsewhere{0.25, 0};
   for (const bool left_first : {true, false}) {
     const PhasePoint start{{left_first ? left : right, left_first ? right : left, elsewhere}, {0, 0.125, 0}};
@@ -59,8 +59,7 @@ TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
 
 // A rotation is reported with the side of the neighbour that it changed, on the ring, too.
 TEST(Simulate, ReportsTheNeighbourThatARuleChanges) {
-  const ClosedChain chain{
-      .cells = 4, .particles_per_cell = 1, .cell_length = 1, .sigma = 0.5, .rule = {"rotation", {1}}};
+  const ClosedChain chain{{.cells = 4, .rule = {"rotation", {1}}}, 1};
   int left = 0;
   for (const std::uint32_t seed : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U})
     for (const std::uint32_t cell : {0U, 3U}) {
@@ -99,13 +98,13 @@ TEST(Simulate, HeartbeatsComeEvery65536EventsAndMayStopTheRun) {
     EXPECT_THROW(simulate(dynamics, 2 * end, nobody, stop), std::runtime_error);
   };
   for (const std::uint32_t cells : {1U, 11U}) {
-    const ClosedChain chain{cells, cells, 1, 0.5};
+    const ClosedChain chain{{.cells = cells}, cells};
     const double end = 8e5 / cells / cells;
     ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, {5, 0}), 2 * end, {1, 0});
     check(dynamics, end);
   }
   for (const double gamma : {0., 4.}) {
-    const OpenChain chain{.cells = 4, .cell_length = 0.25, .gamma = gamma};
+    const OpenChain chain{{.cells = 4, .cell_length = 0.25, .gamma = gamma}};
     OpenDynamics dynamics(chain, empty_start(chain), 4000, {1, 0});
     check(dynamics, 2000);
   }
