@@ -31,7 +31,7 @@ def test_kinetic_solution_is_at_bonds_or_given_positions(solve: Measure) -> None
     assert continuum.converged == "reached"
 
 
-def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None:
+def test_kinetic_currents_rates_and_moments_are_sums_of_the_flux(solve: Measure) -> None:
     result = solve(momentum_bins=400, momentum_max=150)
     flux, p = result["flux"].mean, result["flux"].axes["momentum"]
     width = p[1] - p[0]
@@ -40,10 +40,13 @@ def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None
     half = flux.shape[1] // 2
     np.testing.assert_allclose(flux[0, half:].sum() * width, 220, rtol=1e-10)
     np.testing.assert_allclose(flux[-1, :half].sum() * width, 180, rtol=1e-10)
-    energy = (result["flux_density"].mean * np.sign(p) * p**2 / 2).sum(axis=1) * width
-    np.testing.assert_allclose(energy, result["energy_current"].mean, rtol=1e-4)
-    # The mean over a bin differs from the value at its middle by width^2 F''/24.
     density = result["flux_density"].mean
+    energy = (density * np.sign(p) * p**2 / 2).sum(axis=1) * width
+    np.testing.assert_allclose(energy, result["energy_current"].mean, rtol=1e-4)
+    for sign, kurtosis in zip((-1, 1), result["kurtosis"].mean.T, strict=True):
+        zeroth, second, fourth = (density[:, p * sign > 0] @ p[p * sign > 0] ** n for n in (0, 2, 4))
+        np.testing.assert_allclose(kurtosis, fourth * zeroth / second**2, rtol=1e-4)
+    # The mean over a bin differs from the value at its middle by width^2 F''/24.
     inner = slice(1, 199)
     curvature = (density[:, 2:200] - 2 * density[:, inner] + density[:, 0:198]) / 24
     np.testing.assert_allclose(flux[:, inner] - density[:, inner], curvature, atol=1e-5)
@@ -171,17 +174,6 @@ def test_kappa_is_defined_where_that_of_a_simulated_chain_is(
         assert reason in done.stderr, name
 
 
-def test_kinetic_solution_between_equal_baths_is_gaussian(solve: Measure) -> None:
-    baths = {"nu_left": 10, "nu_right": 10, "temperature_left": 4, "temperature_right": 4, "momentum_max": 10}
-    result = solve(sigma=-0.3, gamma=30, **baths)
-    density = result["flux_density"]
-    expected = 10 * np.sqrt(2 / (np.pi * 4)) * np.exp(-(density.axes["momentum"] ** 2) / 8)
-    np.testing.assert_allclose(density.mean, np.tile(expected, (11, 1)), atol=1e-12 * expected.max())
-    assert abs(result["particle_current"].mean) < 1e-12 * 10
-    np.testing.assert_allclose(result["kurtosis"].mean, 3, rtol=1e-11)
-    assert np.abs(result["jump"].mean).max() < 1e-11 * expected.max()
-
-
 @pytest.mark.parametrize("options", [{"target_error": 0}, {"sigma": 0.07}, {"temperature_right": 3000}])
 def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path, options: dict) -> None:
     result = program("boltzmann", progress="log", **options)
@@ -191,14 +183,6 @@ def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path, optio
     assert stored.converged == "not reached"
     assert 0 < stored.provenance["achieved_error"] < 1e-2
     assert stored.warnings
-
-
-@pytest.mark.parametrize("options", [{"gamma": 0}, {"gamma": 1e-10}, {"nu_left": 0}])
-def test_currents_are_constant_in_extreme_limits(solve: Measure, options: dict) -> None:
-    result = solve(**{"gamma": 1, "target_error": 1e-5, "momentum_max": 200} | options)
-    flux, p = result["flux"].mean, result["flux"].axes["momentum"]
-    currents = (flux * np.sign(p)).sum(axis=1) * (p[1] - p[0])
-    np.testing.assert_allclose(currents, result["particle_current"].mean, atol=1e-11 * 400)
 
 
 def test_iteration_that_does_not_converge_is_a_numerical_failure(program: Program) -> None:

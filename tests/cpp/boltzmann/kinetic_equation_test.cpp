@@ -151,9 +151,13 @@ TEST(KineticEquation, ExchangeOfTheBathsMirrorsTheChain) {
   }
 }
 
-// Currents of number, momentum and energy do not depend on x [eq. 40], also where the series is coarse.
+// Currents of number, momentum and energy do not depend on x [eq. 40], also where the series is coarse,
+// without scattering, and with one bath.
 TEST(KineticEquation, CurrentsAreConstant) {
-  for (const auto& p : {problem(0.3, 7, 7), problem(-0.7, 4, 11), problem(0.6, 30)}) {
+  KineticProblem one_bath = problem(0.5, 1);
+  one_bath.left.rate = 0;
+  for (const auto& p : {problem(0.3, 7, 7), problem(-0.7, 4, 11), problem(0.6, 30), problem(0.5, 0),
+                        problem(0.5, 1e-10), one_bath}) {
     const KineticSolution solution(p, 20);
     const auto pressure = [](const Flux& flux) { return flux.right.moment(1) + flux.left.moment(1); };
     const Flux first = solution.at(0);
@@ -185,7 +189,8 @@ TEST(KineticEquation, EquilibriumStays) {
       const HalfFlux bath{p.left, 1, {}};
       const Flux flux = KineticSolution(p, 24).at(0.3);
       for (const double momentum : {0.0, 3.0, 40.0})
-        EXPECT_NEAR(flux.left.density(momentum), bath.density(momentum), 1e-10) << sigma << ' ' << gamma;
+        for (const HalfFlux& half : {flux.left, flux.right})
+          EXPECT_NEAR(half.density(momentum), bath.density(momentum), 1e-10) << sigma << ' ' << gamma;
       EXPECT_LT(std::abs(flux.particle_current()), 1e-10);
     }
 }
