@@ -45,7 +45,10 @@ Matrix half_line_products(std::size_t rows, std::size_t columns) {
 /// Coefficients of a(scale z).
 Vector scaled(Vector a, double scale) {
   double power = 1;
-  for (double& value : a) value *= std::exchange(power, power * scale);
+  for (double& value : a) {
+    value *= power;
+    power *= scale;
+  }
   return a;
 }
 
@@ -77,10 +80,10 @@ std::size_t number_of_sites(const KineticProblem& problem, std::size_t order) {
 
 /// Largest magnitude; NaN if one value is NaN.
 double largest(const Matrix& matrix) {
-  double result = 0;
-  for (std::size_t i = 0; i < matrix.rows(); ++i)
-    for (const double value : matrix.row(i)) result = std::abs(value) <= result ? result : std::abs(value);
-  return result;
+  const gsl_matrix_const_view view = matrix.view();
+  double lowest = 0, highest = 0;
+  gsl_matrix_minmax(&view.matrix, &lowest, &highest);  // both NaN if one value is
+  return std::max(-lowest, highest);
 }
 
 }  // namespace
@@ -129,13 +132,12 @@ Vector HalfFlux::hermite_moments(std::size_t size) const {
   const double height = bath.rate * std::sqrt(2 * t / std::numbers::pi) / root_normal(0);
   const Vector start = hermite(size, 0);
   const Matrix products = half_line_products(size, a.size());
-  Vector of_bath(size, bath.rate);  // by integration by parts
+  Vector result(size, bath.rate);  // of the bath, by integration by parts
   for (std::size_t n = 1; n < size; ++n) {
     const auto m = static_cast<double>(n);
-    const double inner = n > 1 ? (t - 1) * std::sqrt(m - 1) * of_bath[n - 2] : 0;
-    of_bath[n] = (height * start[n - 1] + inner) / std::sqrt(m);
+    const double inner = n > 1 ? (t - 1) * std::sqrt(m - 1) * result[n - 2] : 0;
+    result[n] = (height * start[n - 1] + inner) / std::sqrt(m);
   }
-  Vector result = of_bath;
   for (std::size_t n = 0; n < size; ++n)
     for (std::size_t m = 0; m < a.size(); ++m) result[n] += products(n, m) * a[m];
   return result;
@@ -177,8 +179,8 @@ KineticSolution::KineticSolution(const KineticProblem& problem, std::size_t orde
       x_(number_of_sites(problem_, order)),
       weight_(x_.size(), 1 / static_cast<double>(x_.size())),
       collision_(problem.sigma, order),
-      right_{1, problem.left, {}, {}, {0, 0}, {0, 0}, {0, 0}},
-      left_{-1, problem.right, {}, {}, {0, 0}, {0, 0}, {0, 0}},
+      right_{1, problem.left},
+      left_{-1, problem.right},
       gain_(x_.size(), order) {
   const GslObject<gsl_integration_glfixed_table, gsl_integration_glfixed_table_alloc,
                   gsl_integration_glfixed_table_free>
@@ -224,19 +226,18 @@ void KineticSolution::prepare(Direction& direction) const {
   }
 }
 
-/// Weights of the sites that particles of a direction have passed on their way to a bond.
-Vector KineticSolution::passed_to_bond(std::size_t bond, double sign) const {
-  Vector passed(x_.size());
-  for (std::size_t j = 0; j < x_.size(); ++j) passed[j] = (j < bond) == (sign > 0) ? weight_[j] : 0;
-  return passed;
-}
-
-/// Integrals of the Lagrange polynomials of the nodes over the way to x. That of node j is weight_j sum_k (2k
-/// + 1) P_k(t_j) P_k(t) with Legendre polynomials of t = 2x - 1, and 2k + 1 times the integral of P_k from -1
+/// Weights of the sites that particles of a direction have passed on their way to x; in the continuum, the
+/// integrals of the Lagrange polynomials of the nodes over this way. That of node j is weight_j sum_k (2k +
+/// 1) P_k(t_j) P_k(t) with Legendre polynomials of t = 2x - 1, and 2k + 1 times the integral of P_k from -1
 /// to t is P_{k+1} - P_{k-1}, with P_{-1} = -1.
 Vector KineticSolution::passed(double x, double sign) const {
   const std::size_t count = x_.size();
-  Vector passed(count), at_x(count + 1), at_node(count + 1);
+  Vector passed(count);
+  if (problem_.cells > 0) {
+    for (std::size_t j = 0; j < count; ++j) passed[j] = (x_[j] < x) == (sign > 0) ? weight_[j] : 0;
+    return passed;
+  }
+  Vector at_x(count + 1), at_node(count + 1);
   gsl_sf_legendre_Pl_array(static_cast<int>(count), 2 * x - 1, at_x.data());
   for (std::size_t j = 0; j < count; ++j) {
     gsl_sf_legendre_Pl_array(static_cast<int>(count), 2 * x_[j] - 1, at_node.data());
@@ -248,17 +249,12 @@ Vector KineticSolution::passed(double x, double sign) const {
 }
 
 Vector KineticSolution::passed_to_site(std::size_t site, double sign) const {
-  if (problem_.cells == 0) return passed(x_[site], sign);
-  Vector passed = passed_to_bond(site, sign);
-  passed[site] = 0;  // the flux that arrives at a scatterer excludes its own gain [eq. 41]
+  Vector passed = this->passed(x_[site], sign);
+  if (problem_.cells > 0) passed[site] = 0;  // a scatterer's own gain does not arrive at it [eq. 41]
   return passed;
 }
 
 Flux KineticSolution::at(double x) const { return {half(right_, passed(x, 1)), half(left_, passed(x, -1))}; }
-
-Flux KineticSolution::at_bond(std::size_t bond) const {
-  return {half(right_, passed_to_bond(bond, 1)), half(left_, passed_to_bond(bond, -1))};
-}
 
 Flux KineticSolution::at_scatterer(std::size_t site) const {
   return {half(right_, passed_to_site(site, 1)), half(left_, passed_to_site(site, -1))};
@@ -279,16 +275,18 @@ HalfFlux KineticSolution::half(const Direction& direction, const Vector& passed)
 Matrix KineticSolution::first_guess(const KineticSolution* guess) const {
   Matrix f(x_.size(), order_);
   for (std::size_t i = 0; i < f.rows(); ++i) {
+    if (guess) {
+      const Flux flux = problem_.cells > 0 ? guess->at_scatterer(i) : guess->at(x_[i]);
+      const Vector right = flux.right.hermite_moments(guess->order_),
+                   left = flux.left.hermite_moments(guess->order_);
+      for (std::size_t n = 0; n < guess->order_; ++n) f(i, n) = right[n] + parity(n) * left[n];
+      continue;
+    }
     const double from_left = problem_.gamma * (1 - x_[i]) / (1 + problem_.gamma),
                  from_right = problem_.gamma * x_[i] / (1 + problem_.gamma);
-    for (std::size_t n = 0; n < order_ && !guess; ++n)
+    for (std::size_t n = 0; n < order_; ++n)
       f(i, n) = (1 - from_right + parity(n) * from_left) * right_.injected[n] +
                 (1 - from_left + parity(n) * from_right) * left_.injected[n];
-    if (!guess) continue;
-    const Flux flux = problem_.cells > 0 ? guess->at_scatterer(i) : guess->at(x_[i]);
-    const Vector right = flux.right.hermite_moments(guess->order_),
-                 left = flux.left.hermite_moments(guess->order_);
-    for (std::size_t n = 0; n < right.size(); ++n) f(i, n) = right[n] + parity(n) * left[n];
   }
   return f;
 }
@@ -296,12 +294,12 @@ Matrix KineticSolution::first_guess(const KineticSolution* guess) const {
 /// f_n at the sites after streaming with the present gain.
 Matrix KineticSolution::image() const {
   Matrix f(x_.size(), order_);
-  for (const Direction* each : {&right_, &left_}) {
+  for (const Direction* direction : {&right_, &left_}) {
     Matrix arriving(f.rows(), order_);
-    add_product(each->gain, gain_, arriving);
-    add_product(arriving, each->products, f);
+    add_product(direction->gain, gain_, arriving);
+    add_product(arriving, direction->products, f);
     for (std::size_t i = 0; i < f.rows(); ++i)
-      for (std::size_t n = 0; n < order_; ++n) f(i, n) += each->rest[i] * each->injected[n];
+      for (std::size_t n = 0; n < order_; ++n) f(i, n) += direction->rest[i] * direction->injected[n];
   }
   return f;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -75,7 +76,8 @@ struct HalfFlux {
 struct Flux {
   HalfFlux right, left;  // p > 0, p < 0
 
-  double density(double p) const { return p < 0 ? left.density(-p) : right.density(p); }
+  /// p = -0.0 is the limit from below.
+  double density(double p) const { return std::signbit(p) ? left.density(-p) : right.density(p); }
   double integral(double low, double high) const;  // over momenta on one side of p = 0
   double particle_current() const { return right.moment(0) - left.moment(0); }        // [eq. 26]
   double energy_current() const { return 0.5 * (right.moment(2) - left.moment(2)); }  // [eq. 26]
@@ -93,8 +95,7 @@ class KineticSolution {
   KineticSolution(const KineticProblem& problem, std::size_t order, const KineticSolution* guess = nullptr,
                   const std::function<void(double)>& on_step = {});
 
-  Flux at(double x) const;                    // continuum, 0 <= x <= 1
-  Flux at_bond(std::size_t bond) const;       // chain; bonds 0 and `cells` are its ends
+  Flux at(double x) const;                    // 0 <= x <= 1; bonds of a chain are at multiples of 1/cells
   Flux at_scatterer(std::size_t site) const;  // chain: the particles that arrive
 
   int evaluations() const { return evaluations_; }             // of the collision at all sites
@@ -106,13 +107,14 @@ class KineticSolution {
   struct Direction {
     double sign;  // of p
     Reservoir bath;
-    std::vector<double> rest, injected{};  // injected: f_n of the bath
-    Matrix gain, products, net_gain;       // products: int h_n h_m w over the half line; net: gamma (G - F)
+    std::vector<double> rest{}, injected{};  // injected: f_n of the bath
+    Matrix gain{0, 0};
+    Matrix products{0, 0};  // int h_n h_m w over the half line
+    Matrix net_gain{0, 0};  // gamma (G - F)
   };
 
   void prepare(Direction& direction) const;
   std::vector<double> passed(double x, double sign) const;
-  std::vector<double> passed_to_bond(std::size_t bond, double sign) const;
   std::vector<double> passed_to_site(std::size_t site, double sign) const;
   HalfFlux half(const Direction& direction, const std::vector<double>& passed) const;
   std::size_t modes() const;

@@ -17,22 +17,21 @@ def solve(measure: Measure) -> Measure:
     return partial(measure, "boltzmann")
 
 
-def test_kinetic_solution_is_at_bonds_scatterers_or_given_positions(solve: Measure) -> None:
-    """Bonds and scatterers of a chain; in the continuum all quantities are at the positions given."""
-    chain = solve(cells=7)
+def test_kinetic_solution_is_at_bonds_or_given_positions(solve: Measure) -> None:
+    """Bonds of a chain, or positions of the continuum. kappa is that of the reference solution in
+    tests/cpp/boltzmann."""
+    chain = solve(cells=7, sigma=0.5, gamma=1)
     np.testing.assert_allclose(chain["flux"].axes["x"], np.arange(8) / 7, rtol=1e-15)
-    np.testing.assert_allclose(chain["temperature_scatterer"].axes["x"], (np.arange(7) + 0.5) / 7)
-    rise = np.diff(chain["temperature_scatterer"].mean[[0, -1]]).item()
-    assert chain["kappa"].mean == pytest.approx(-7 * float(chain["energy_current"].mean) / rise)
+    assert chain["kappa"].mean == pytest.approx(1080.62045, rel=5e-6)
     continuum = solve(positions="0.25,0.5", momentum_bins=10)
     assert np.isnan(continuum["kappa"].mean)
     assert continuum["flux"].mean.shape == (2, 10)
-    for name in ("flux", "temperature_scatterer"):
+    for name in ("flux", "jump"):
         np.testing.assert_array_equal(continuum[name].axes["x"], [0.25, 0.5])
     assert continuum.converged == "reached"
 
 
-def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None:
+def test_kinetic_currents_rates_and_moments_are_sums_of_the_flux(solve: Measure) -> None:
     result = solve(momentum_bins=400, momentum_max=150)
     flux, p = result["flux"].mean, result["flux"].axes["momentum"]
     width = p[1] - p[0]
@@ -41,10 +40,13 @@ def test_kinetic_currents_and_rates_are_sums_of_the_flux(solve: Measure) -> None
     half = flux.shape[1] // 2
     np.testing.assert_allclose(flux[0, half:].sum() * width, 220, rtol=1e-10)
     np.testing.assert_allclose(flux[-1, :half].sum() * width, 180, rtol=1e-10)
-    energy = (result["flux_density"].mean * np.sign(p) * p**2 / 2).sum(axis=1) * width
-    np.testing.assert_allclose(energy, result["energy_current"].mean, rtol=1e-4)
-    # The mean over a bin differs from the value at its middle by width^2 F''/24.
     density = result["flux_density"].mean
+    energy = (density * np.sign(p) * p**2 / 2).sum(axis=1) * width
+    np.testing.assert_allclose(energy, result["energy_current"].mean, rtol=1e-4)
+    for sign, kurtosis in zip((-1, 1), result["kurtosis"].mean.T, strict=True):
+        zeroth, second, fourth = (density[:, p * sign > 0] @ p[p * sign > 0] ** n for n in (0, 2, 4))
+        np.testing.assert_allclose(kurtosis, fourth * zeroth / second**2, rtol=1e-4)
+    # The mean over a bin differs from the value at its middle by width^2 F''/24.
     inner = slice(1, 199)
     curvature = (density[:, 2:200] - 2 * density[:, inner] + density[:, 0:198]) / 24
     np.testing.assert_allclose(flux[:, inner] - density[:, inner], curvature, atol=1e-5)
@@ -91,7 +93,7 @@ def exact_gain(
     power = 1 - sigma**2
     while abs(power) * largest * widest > 1e-13:
         density, power = density * transform(power * k) / sum(rates), power * sigma
-    return np.array([(np.exp(-1j * each * k) @ density).real / np.pi for each in p])
+    return np.array([(np.exp(-1j * momentum * k) @ density).real / np.pi for momentum in p])
 
 
 @pytest.mark.parametrize(
@@ -172,18 +174,6 @@ def test_kappa_is_defined_where_that_of_a_simulated_chain_is(
         assert reason in done.stderr, name
 
 
-def test_kinetic_solution_between_equal_baths_is_gaussian(solve: Measure) -> None:
-    baths = {"nu_left": 10, "nu_right": 10, "temperature_left": 4, "temperature_right": 4, "momentum_max": 10}
-    result = solve(sigma=-0.3, gamma=30, **baths)
-    density = result["flux_density"]
-    expected = 10 * np.sqrt(2 / (np.pi * 4)) * np.exp(-(density.axes["momentum"] ** 2) / 8)
-    np.testing.assert_allclose(density.mean, np.tile(expected, (11, 1)), atol=1e-12 * expected.max())
-    assert abs(result["particle_current"].mean) < 1e-12 * 10
-    np.testing.assert_allclose(result["temperature_scatterer"].mean, 4, rtol=1e-12)
-    np.testing.assert_allclose(result["kurtosis"].mean, 3, rtol=1e-11)
-    assert np.abs(result["jump"].mean).max() < 1e-11 * expected.max()
-
-
 @pytest.mark.parametrize("options", [{"target_error": 0}, {"sigma": 0.07}, {"temperature_right": 3000}])
 def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path, options: dict) -> None:
     result = program("boltzmann", progress="log", **options)
@@ -193,14 +183,6 @@ def test_target_out_of_reach_is_reported(program: Program, tmp_path: Path, optio
     assert stored.converged == "not reached"
     assert 0 < stored.provenance["achieved_error"] < 1e-2
     assert stored.warnings
-
-
-@pytest.mark.parametrize("options", [{"gamma": 0}, {"gamma": 1e-10}, {"nu_left": 0}])
-def test_currents_are_constant_in_extreme_limits(solve: Measure, options: dict) -> None:
-    result = solve(**{"gamma": 1, "target_error": 1e-5, "momentum_max": 200} | options)
-    flux, p = result["flux"].mean, result["flux"].axes["momentum"]
-    currents = (flux * np.sign(p)).sum(axis=1) * (p[1] - p[0])
-    np.testing.assert_allclose(currents, result["particle_current"].mean, atol=1e-11 * 400)
 
 
 def test_iteration_that_does_not_converge_is_a_numerical_failure(program: Program) -> None:
