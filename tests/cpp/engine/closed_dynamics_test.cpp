@@ -16,24 +16,6 @@ namespace closed_dynamics_test {
 using namespace lorentz;
 using namespace support;
 
-TEST(Simulate, DoesNotDependOnStopsInBetween) {
-  const ClosedChain chain{{.cells = 11}, 20};
-  const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
-  const std::vector<Collision> whole = collisions(chain, start, 20);
-  ASSERT_GT(whole.size(), 10000U);
-  for (const double piece : {7.0, 0.5, 0.001}) {
-    ClosedDynamics dynamics(chain, start, 20, {1, 0});
-    Recorder recorder;
-    for (double until = 0; until < 20;) simulate(dynamics, until += piece, recorder, nothing);
-    expect_same(recorder.collisions, whole);
-    EXPECT_EQ(dynamics.events(), whole.size());
-  }
-  ClosedDynamics longer(chain, start, 1e5, {1, 0});  // a later end freezes fewer particles only
-  Recorder recorder;
-  simulate(longer, 20, recorder, nothing);
-  expect_same(recorder.collisions, whole);
-}
-
 // Two particles that are mirror images reach the scatterer at 1.5 at the same time, 0.25. The particle with
 // the lower number scatters first, and the other one meets the scatterer in its new state.
 TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {

@@ -183,35 +183,6 @@ TEST(EventQueue, TakesFlightsThatAreAddedDuringAnArrival) {
   compare_for_every_rate({20, 40, quantised, 0.3, 50'000, entering, 0, 0.05}, 20);
 }
 
-// All times are multiples of 1/4, which a difference of times does not round. One particle never arrives.
-TEST(EventQueue, KeepsAllFlightsWhenTheOriginMoves) {
-  using Events = std::vector<std::pair<double, std::uint32_t>>;
-  const auto run = [](bool moves) {
-    Generator generator(5);
-    std::vector<Flight> first{{infinity, 1, 0, 20}};
-    for (std::uint32_t particle = 0; particle < 20; ++particle)
-      first.push_back({quantised(generator), 1, 0, particle});
-    EventQueue queue(first, 20, 100);
-    Events events;
-    double origin = 0;
-    for (double until = 0; until < 110; until += 8) {
-      const auto take = [&](Flight flight, EventQueue::Cursor& cursor) {
-        events.emplace_back(origin + flight.time, flight.particle);
-        flight.time += quantised(generator);
-        cursor.reschedule<true>(flight);
-      };
-      EventQueue::Cursor(queue).take_before(until - origin, take, [](double) {});
-      if (moves && until < 100) queue.shift(until - std::exchange(origin, until));
-    }
-    for (const Flight& flight : queue.flights()) events.emplace_back(origin + flight.time, flight.particle);
-    return events;
-  };
-  const Events events = run(false);
-  EXPECT_GT(events.size(), 1000U);
-  EXPECT_EQ(events.back(), std::pair(infinity, 20U));
-  EXPECT_EQ(run(true), events);
-}
-
 // Every flight that outlasts the revolution takes a new slot; free slots are reused.
 TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
   Generator generator(3);
