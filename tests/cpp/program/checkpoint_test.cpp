@@ -39,16 +39,6 @@ TEST_F(CheckpointTest, LoadsWhatWasSaved) {
   EXPECT_GE(checkpoint.former_seconds, 2 * first);
 }
 
-TEST_F(CheckpointTest, OfAnotherRunHasNoReplicas) {
-  checkpoint.save(saved);
-  const std::string identity = checkpoint.identity;
-  for (const std::string& other : {std::string("sigma = 0.4\nsource_hash = abc\n"), identity + " ",
-                                   identity.substr(0, identity.size() - 1), std::string()}) {
-    checkpoint.identity = other;
-    EXPECT_TRUE(checkpoint.load().empty()) << other;
-  }
-}
-
 TEST_F(CheckpointTest, RefusesDamagedFiles) {
   checkpoint.save(saved);
   const std::string whole = content_of(checkpoint.path);
