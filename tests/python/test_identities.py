@@ -1,50 +1,15 @@
 """Quantities that are functions of others in the same file, calculated again from these, in chains of N, n
 and γ that are no powers of two. Errors in the others are found by reference simulators and exact results."""
 
-import importlib
-import math
-from collections.abc import Iterator
-
 import numpy as np
 import pandas as pd
 import pytest
 
-from tests.python import plotted
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
 
 RING = {"cells": 7, "particles_per_cell": 3, "gamma": 2.6, "cell_length": 0.7, "replicas": 10}
 CHAIN = {"cells": 7, "gamma": 2.6, "cell_length": 0.7, "replicas": 20}
 
-
-SIZES = ("cells", "particles_per_cell", "cell_length", "gamma")
-
-
-def sizes(found: object, name: str) -> Iterator[float]:
-    """Numbers of an option in nested dictionaries and lists."""
-    if isinstance(found, dict):
-        for key, value in found.items():
-            if str(key).replace("-", "_") == name and isinstance(value, int | float):
-                yield float(value)
-            yield from sizes(value, name)
-    elif isinstance(found, list | tuple):
-        for each in found:
-            yield from sizes(each, name)
-
-
-def test_cases_are_not_all_powers_of_two() -> None:
-    """Positions j/N, rates γ/N and logarithms to the base of two are exact for powers of two, so that a
-    comparison of rounded numbers passes. Results that are made up for panels (plotted.py) compute nothing."""
-    found = []
-    for path in sorted((ROOT / "tests/python").glob("test_*.py")):
-        module = importlib.import_module(f"tests.python.{path.stem}")
-        for label, cases in vars(module).items():
-            for name in SIZES:
-                numbers = [number for number in sizes(cases, name) if number != 1]
-                dyadic = [math.frexp(number)[0] == 0.5 for number in numbers]
-                made_up = cases is getattr(plotted, label, None)
-                if dyadic and all(dyadic) and not made_up:
-                    found.append(f"{path.name}: {label} has {name} {numbers}")
-    assert not found
 
 
 def slope(x: np.ndarray, y: np.ndarray) -> float:

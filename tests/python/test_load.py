@@ -71,23 +71,6 @@ def test_to_frame_has_the_values_and_units_of_the_file(path: Path) -> None:
             assert row[name].item() == file[FLUX][name][1, 2]
 
 
-@pytest.mark.parametrize(
-    "spoil",
-    [
-        lambda group: group["mean"].dims[1].detach_scale(group["momentum"]),
-        lambda group: group.__delitem__("count"),
-    ],
-)
-def test_a_quantity_without_an_axis_or_a_value_is_damaged(
-    path: Path, spoil: Callable[[h5py.Group], object]
-) -> None:
-    with h5py.File(path, "r+") as file:
-        spoil(file[FLUX])
-    seal(path)
-    with pytest.raises(FormatError, match="is damaged"):
-        load(path)
-
-
 def attribute(name: str, value: object) -> Callable[[Path], object]:
     def change(path: Path) -> None:
         with h5py.File(path, "r+") as file:
@@ -127,15 +110,11 @@ def test_a_file_that_cannot_be_opened_is_not_called_damaged(tmp_path: Path) -> N
         load(tmp_path)
 
 
-@pytest.mark.parametrize("path_of_values", [f"{FLUX}/mean", f"{FLUX}/momentum", "parameters"])
-def test_an_edited_value_is_refused(path: Path, path_of_values: str) -> None:
-    """Also an attribute: a figure would plot values at parameters that are not theirs."""
+def test_an_edited_value_is_refused(path: Path) -> None:
+    """A figure would plot values at parameters that are not theirs. tests/cpp/program/hdf5_file_test.cpp
+    changes every byte."""
     with h5py.File(path, "r+") as file:
-        edited = file[path_of_values]
-        if isinstance(edited, h5py.Dataset):
-            edited[-1] += 1
-        else:
-            edited.attrs["sigma"] = 0.05
+        file["parameters"].attrs["sigma"] = 0.05
     with pytest.raises(FormatError, match="edited or damaged"):
         load(path)
 

@@ -4,7 +4,6 @@ import shutil
 from pathlib import Path
 
 import pytest
-from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT, planned, sampled
 from workflow.lib.identity import run_name
@@ -42,21 +41,6 @@ def test_seeds_stay_as_they_are() -> None:
     }
     changed = planned("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
     assert changed.options == run.options | {"replicas": 5, "seed": 3127557821}
-
-
-def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
-    folder = Path(shutil.copytree(PANELS[0].parent, tmp_path / "config"))
-    yaml = YAML(typ="safe", pure=True)
-    yaml.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
-    paper = yaml.load(folder / "paper.yaml")
-    for panel in paper["panels"].values():
-        panel["common"] = dict(reversed(panel.get("common", {}).items()))
-    yaml.dump(paper, folder / "paper.yaml")
-    former, swapped = (
-        {(panel.name, run.name): run.options for panel in plan for run in panel.runs}
-        for plan in (Plan("paper", PANELS[:1]), Plan("paper", [folder / "paper.yaml"]))
-    )
-    assert former == swapped
 
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
