@@ -74,17 +74,6 @@ def test_files_have_the_described_content_and_the_same_bytes_for_any_threads(
         assert result.parameter_roles[key] == option["role"], key
 
 
-def test_an_option_has_one_type_in_all_programs() -> None:
-    """Words besides numbers, as N, may differ."""
-    for name in {name for options in options_of_programs().values() for name in options}:
-        found = {
-            frozenset(types(options[name]) - {str})
-            for options in options_of_programs().values()
-            if name in options
-        }
-        assert len(found) == 1, name
-
-
 @pytest.mark.parametrize("name", ["conductivity", "boltzmann"])
 def test_a_number_has_its_type_where_a_word_may_be(measure: Measure, name: str) -> None:
     """Detected mistakes: whole numbers are stored as floating point, or unsigned, so that 3 - 5 is 1.8e19."""

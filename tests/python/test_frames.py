@@ -10,7 +10,6 @@ from tests.python.plotted import CHAIN, draw, points, result, right_scale
 from workflow.figures import accuracy, fig03_inset, fig09
 from workflow.lib import style
 from workflow.lib.caption import warnings
-from workflow.lib.figure import NoValueError
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION
 from workflow.render.frame import outside
 
@@ -92,16 +91,6 @@ def test_a_pulse_is_plotted_at_all_times_shown() -> None:
     fig09.draw_profiles(panel, result("rest", {"cells": 5, "scatterer_temperature": 0.0}, **laws), times)
     assert len(panel.get_lines()) == MANY
     plt.close("all")
-
-
-def test_a_figure_with_undefined_and_other_points_is_drawn() -> None:
-    figure, axes = plt.subplots()
-    axes.plot([1, 2], [np.nan, np.nan], "o")
-    with pytest.raises(NoValueError):
-        outside(figure)
-    axes.plot([1, 2], [np.nan, 1], "o")
-    assert outside(figure) == []
-    plt.close(figure)
 
 
 def test_a_run_without_a_value_is_named() -> None:

@@ -11,7 +11,6 @@ RING = {"cells": 7, "particles_per_cell": 3, "gamma": 2.6, "cell_length": 0.7, "
 CHAIN = {"cells": 7, "gamma": 2.6, "cell_length": 0.7, "replicas": 20}
 
 
-
 def slope(x: np.ndarray, y: np.ndarray) -> float:
     return float(np.polyfit(np.log(x), y, 1)[0])
 

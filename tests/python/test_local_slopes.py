@@ -1,5 +1,4 @@
-"""Numbers that panels derive from results, for known laws: local slopes, extrapolations and the
-quasi-stationary estimate."""
+"""The quasi-stationary temperature of a closed chain, and the speed of sound that follows from it."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,6 @@
 """The observables of the closed chain against exact results."""
 
 import numpy as np
-import pytest
 
 from tests.python.conftest import Measure, OverSeeds
 from workflow.lib.load import Quantity
@@ -41,14 +40,6 @@ def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
     # total.
     assert difference(5 / 14) > 10
     assert 8 * np.mean(plain_error**2) > 8 * 40 * np.mean(error**2)
-
-
-@pytest.mark.parametrize("options", [{"zero_total_momentum": True}, {"rule": "random-direction"}])
-def test_displacement_without_a_random_momentum_that_lasts(
-    measure: Measure, options: dict[str, object]
-) -> None:
-    result = measure("displacement", **FEW, **options, replicas=20)
-    assert result["mean_square_displacement"].control_variates == 0
 
 
 def test_displacement_is_confined_between_walls(measure: Measure) -> None:

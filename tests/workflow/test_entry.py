@@ -94,15 +94,6 @@ def test_a_copied_build_is_refused_by_ninja(tmp_path: Path) -> None:
     assert "make build" in done.stdout
 
 
-@pytest.mark.parametrize("words", [["help"], ["status", "QUALITY=smoke"]])
-def test_nothing_depends_on_mode_bits(project: Project, words: list[str]) -> None:
-    """As those of an archive that is unpacked by Python's zipfile."""
-    for name in ("workflow", "profiles", "cpp", "Makefile", "Snakefile"):
-        for path in (project.folder / name, *(project.folder / name).rglob("*")):
-            path.chmod(0o755 if path.is_dir() else 0o644)
-    project.run("make", *words)
-
-
 def test_a_complete_environment_needs_no_uv(tmp_path: Path) -> None:
     """As in a copy without .cache, offline. Other packages in uv.lock, or other groups, are installed."""
     scripts = tmp_path / "workflow/pipeline/environment"

@@ -34,6 +34,7 @@ EnforcePartLimits={enforced}
 NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory={memory}
 PartitionName=test Nodes=ALL Default=YES MaxTime={minutes}
 """
+FILES_OF_MUNGE = ("key-file", "socket", "pid-file", "log-file", "seed-file")
 USUAL = {"age": 3600, "enforced": "NO", "memory": 8000, "minutes": "INFINITE"}
 PANEL = ("env", "--default-signal=INT", ".venv/bin/python", "-m", "workflow", "panel", "QUALITY=smoke")
 Configure = Callable[..., None]
@@ -54,27 +55,19 @@ def configure() -> Iterator[Configure]:
         slurm("scontrol", "reconfigure")
 
     def start(*words: str, user: str = "root") -> None:
-        with (folder / f"{words[0]}.out").open("w") as log:
-            daemons.append(subprocess.Popen(words, stdout=log, stderr=log, user=user, start_new_session=True))
+        daemons.append(subprocess.Popen(words, stderr=subprocess.DEVNULL, user=user, start_new_session=True))
 
-    with tempfile.TemporaryDirectory(
-        prefix="slurm."
-    ) as name:  # in /tmp: the path of a socket has to be short
+    # In /tmp, as the path of a socket has to be short.
+    with tempfile.TemporaryDirectory(prefix="slurm.") as name:
         folder = Path(name)
         folder.chmod(0o755)
         (folder / "key-file").write_bytes(secrets.token_bytes(1024))
         (folder / "key-file").chmod(0o400)
         for path in (folder / "key-file", folder):
             shutil.chown(path, "munge")
-        files = ("key-file", "socket", "pid-file", "log-file", "seed-file")
+        files = [f"--{file}={folder / file}" for file in FILES_OF_MUNGE]
         try:
-            start(
-                "munged",
-                "--foreground",
-                "--force",
-                *(f"--{file}={folder / file}" for file in files),
-                user="munge",
-            )
+            start("munged", "--foreground", "--force", *files, user="munge")
             soon((folder / "socket").exists)
             INSTALLED.unlink(missing_ok=True)  # a link without a target, left by a killed test
             INSTALLED.symlink_to(folder / "slurm.conf")
@@ -164,20 +157,17 @@ def test_forgotten_jobs_are_lost(
 ) -> None:
     """But not those that ended a short time ago, nor while Snakemake prints or squeue fails."""
     configure()
+    log = tmp_path / "log"
 
-    def is_lost(name: str = "absent", printed: str = "") -> bool:
-        (tmp_path / "log").write_text(f"SLURM run ID: {name}\n")
-        queue = Queue(tmp_path / "log")
-        for _ in range(3):
-            with (tmp_path / "log").open("a") as log:
-                log.write(printed)
+    def is_lost(name: str, printed: str = "") -> bool:
+        queue = Queue(log)
+        for look in range(3):
+            log.write_text(f"SLURM run ID: {name}\n{look * printed}")
             queue.look()
         return queue.is_lost
 
-    assert is_lost()
-    assert not is_lost(printed="rendered")
     slurm("sbatch", "--job-name=present", "--output=/dev/null", "--wrap=true")
     soon(lambda: not slurm("squeue", "--noheader"))
-    assert not is_lost("present")
+    assert [is_lost("absent"), is_lost("absent", "rendered"), is_lost("present")] == [True, False, False]
     monkeypatch.setenv("SLURM_CONF", "/absent")
-    assert not is_lost()
+    assert not is_lost("absent")
