@@ -113,15 +113,6 @@ def test_another_series_is_plotted_or_named_and_changes_nothing_else(smoke: Path
     plt.close("all")
 
 
-def test_a_figure_is_drawn_in_another_style(smoke: Path, tmp_path: Path) -> None:
-    draw = importlib.import_module("workflow.figures.fig08").draw
-    with plt.rc_context({"axes.labelsize": 17}):
-        figure, table, _ = draw(load_panel("fig08", "smoke").values())
-        figure.savefig(tmp_path / "talk.pdf")
-    assert {axes.xaxis.label.get_size() for axes in figure.axes} == {17}
-    assert len(table) == len(pd.read_csv(smoke / "figures/smoke/fig08.csv", comment="#"))
-
-
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_is_rendered_from_one_replica(smoke: Path, panel: str) -> None:
     """REPLICAS=1: no error is known. Detected mistakes: a fit that fails, a mean without weights, an axis

@@ -77,12 +77,6 @@ TEST(Hdf5File, AChangeOfAnyByteChangesTheChecksum) {
   EXPECT_FALSE(is_intact(path));
 }
 
-TEST(Hdf5File, RefusesASizeThatIsNotThatOfTheShape) {
-  Hdf5Writer file;
-  EXPECT_THROW(file.array("/group", {"x", "1", "Three", {axis("i", 3)}}, reals), std::invalid_argument);
-  EXPECT_THROW(file.array("/group", {"x", "1", "A number"}, reals), std::invalid_argument);
-}
-
 TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.h5", other = folder / "b.h5";
