@@ -1,26 +1,12 @@
 """The entry: mistyped options get one line and exit status 2, and make passes its options."""
 
 import shutil
-import signal
 import sys
 from pathlib import Path
 
 import pytest
 
 from tests.workflow.conftest import ROOT, Project, plain
-
-INTERRUPTED = """
-import os, runpy, signal, sys
-
-class Interrupt:
-    def find_spec(name, path=None, target=None):
-        if name == "jsonschema":
-            os.kill(os.getpid(), signal.SIGINT)
-
-sys.meta_path.insert(0, Interrupt)
-sys.argv = ["workflow", "status"]
-runpy.run_module("workflow", run_name="__main__", alter_sys=True)
-"""
 
 
 @pytest.mark.parametrize(
@@ -39,11 +25,6 @@ def test_a_mistyped_option_gets_a_line(tmp_path: Path, words: str, line: str) ->
     printed = Project(ROOT).workflow(*words.split(), status=2, path=str(tmp_path))
     assert printed.startswith(line)
     assert len(printed.splitlines()) == 1
-
-
-def test_an_interruption_while_modules_are_imported_has_no_traceback(project: Project) -> None:
-    done = project.run(".venv/bin/python", "-c", INTERRUPTED, status=-signal.SIGINT)
-    assert done.stdout == ""
 
 
 def test_make_passes_its_options(project: Project) -> None:

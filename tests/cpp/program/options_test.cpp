@@ -75,21 +75,17 @@ TEST(Options, RefuseOtherValues) {
   expect_all_refused("--start", {"hot"});
 }
 
-TEST(Options, RefuseUnknownAndRepeatedNames) {
-  for (const char* word : {"--sgima", "--sigm", "-s"}) expect_refused({word, "0.5"}, word);
-  expect_refused({"extra"}, "extra");
-  expect_refused({"--sigma"}, "--sigma");
-  expect_refused({"--sigma", "0.5", "--sigma", "0.3"}, "--sigma", "more than once");
-}
-
 // Detected mistake: a name is suggested that is not similar.
-TEST(Options, SuggestTheMostSimilarName) {
+TEST(Options, RefuseUnknownAndRepeatedNamesWithTheMostSimilarOne) {
   expect_refused({"--sgima", "0.5"}, "--sgima", "--sigma");
   expect_refused({"--treads=2"}, "--treads", "--threads");
   const std::string message = support::refusal([] { Example().parse({"--wxyz"}); });
   const Example example;
   for (const Option& option : example.options.all())
     EXPECT_EQ(message.find(option.name), std::string::npos) << message;
+  for (const char* word : {"--sigm", "-s", "extra"}) expect_refused({word, "0.5"}, word);
+  expect_refused({"--sigma"}, "--sigma");
+  expect_refused({"--sigma", "0.5", "--sigma", "0.3"}, "--sigma", "more than once");
 }
 
 // An attribute of the result has at most 64 kB. Detected mistake: numbers are counted as they are given.
