@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -85,6 +86,8 @@ TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   support::write_file(other, "not HDF5");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{other}; }), "");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{folder / "absent.h5"}; }), "");
+  std::filesystem::create_directory(folder / "c.h5");
+  EXPECT_NE(support::refusal([&] { require_writable(folder / "c.h5"); }), "");
 }
 
 }  // namespace hdf5_file_test

@@ -247,7 +247,6 @@ TEST_F(StudyTest, ReplacesNoResultOfOtherOptions) {
 
 TEST_F(StudyTest, LeavesNothingBehindIfItIsRefusedOrFails) {
   expect_refused_run({"--output", folder / "absent/a.h5"}, "absent/a.h5");
-  expect_refused_run({"--output", folder / ""}, folder / "");
   EXPECT_EQ(run(to_output, failing_at(0)), 3);
   expect_complaint("a replica failed");
   EXPECT_EQ(run(to_output, never), 5);

@@ -37,19 +37,7 @@ struct OpenChain {
 class OpenHeapSimulator {
  public:
   OpenHeapSimulator(const OpenChain& parameters, std::uint64_t seed)
-      : parameters_(parameters),
-        generator_(seed),
-        P_(parameters.cells, 0),
-        changed_(parameters.cells, parameters.relaxation),
-        occupied_(parameters.cells, 0),
-        scatterer_(parameters.cells, 0),
-        square_(parameters.cells, 0),
-        density_(parameters.cells, 0),
-        right_(parameters.cells, 0),
-        left_(parameters.cells, 0),
-        particles_(parameters.cells + 1, 0),
-        energy_(parameters.cells + 1, 0),
-        flux_((parameters.cells + 1) * parameters.bins, 0) {
+      : parameters_(parameters), generator_(seed) {
     next_injection(true, 0);
     next_injection(false, 0);
   }
@@ -176,9 +164,13 @@ class OpenHeapSimulator {
   const OpenChain& parameters_;
   std::mt19937_64 generator_;
   std::priority_queue<Event> events_;
-  std::vector<double> P_, changed_;
-  std::vector<int> occupied_;
-  std::vector<double> scatterer_, square_, density_, right_, left_, particles_, energy_, flux_;
+  using Values = std::vector<double>;
+  const std::size_t cells_ = parameters_.cells, bonds_ = cells_ + 1;
+  Values P_ = Values(cells_), changed_ = Values(cells_, parameters_.relaxation);
+  std::vector<int> occupied_ = std::vector<int>(cells_);
+  Values scatterer_ = Values(cells_), square_ = scatterer_, density_ = scatterer_, right_ = scatterer_,
+         left_ = scatterer_, particles_ = Values(bonds_), energy_ = particles_,
+         flux_ = Values(bonds_ * parameters_.bins);
 };
 
 inline void OpenChain::run() const {
