@@ -67,7 +67,7 @@ TEST(MovingPeak, CentreHasTwoCellsOnBothSides) {
 
 // The peak has not left the centre at the first time. What depends on this time is NaN; all else uses the
 // other times. Detected mistakes: the height is 0; the fit includes this time; all values are NaN; the two
-// sides are not averaged; an exponent has the wrong sign; the width grows as t^1/2.
+// sides are not averaged; an exponent has the wrong sign.
 TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentreAndThenFollowsGaussianPeaks) {
   std::vector<double> mean = profiles();
   for (int cell = 0; cell < cells; ++cell) mean[cell] = std::exp(-0.02 * (cell - centre) * (cell - centre));
