@@ -48,14 +48,14 @@ def slurm(*words: str) -> list[str]:
 @pytest.fixture(scope="module")
 def configure() -> Iterator[Configure]:
     """A function that changes the configuration of a Slurm on the loopback interface."""
-    daemons = list[subprocess.Popen[bytes]]()
+    daemons, null = list[subprocess.Popen[bytes]](), subprocess.DEVNULL
 
     def configure(**changes: str | int) -> None:
         (folder / "slurm.conf").write_text(CONFIGURATION.format(folder=folder, **USUAL | changes))
         slurm("scontrol", "reconfigure")
 
     def start(*words: str, user: str = "root") -> None:
-        daemons.append(subprocess.Popen(words, stderr=subprocess.DEVNULL, user=user, start_new_session=True))
+        daemons.append(subprocess.Popen(words, stdout=null, stderr=null, user=user, start_new_session=True))
 
     # In /tmp, as the path of a socket has to be short.
     with tempfile.TemporaryDirectory(prefix="slurm.") as name:
