@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -65,6 +66,30 @@ TEST(OpenDynamics, EnergyIsWhatEnteredAndHasNotLeft) {
       }
     }
   }
+}
+
+/// Scatterers that change, with U before the first change.
+struct Changes {
+  std::map<std::uint32_t, double> before{};
+  void on_scatterer(std::uint32_t cell, double U, double) { before.emplace(cell, U); }
+};
+
+// Detected mistakes: the change of a neighbour is not reported, or with U after it.
+TEST(OpenDynamics, ReportsEveryChangeOfAScatterer) {
+  OpenChain chain = chain_of(5, infinity);
+  chain.rule = {"rotation", {0.5}};
+  OpenDynamics dynamics(chain, empty_start(chain), 20, {4, 0});
+  std::uint64_t both = 0;
+  for (double time = 0; time < 20; time += 1e-3) {
+    Changes seen;
+    std::vector<double> U = dynamics.scatterers();
+    simulate(dynamics, time, seen, support::nothing);
+    for (const auto& [cell, before] : seen.before) EXPECT_EQ(before, U[cell]);
+    for (const auto& [cell, before] : seen.before) U[cell] = dynamics.scatterers()[cell];
+    EXPECT_EQ(U, dynamics.scatterers());
+    both += seen.before.size() == 2 ? 1 : 0;
+  }
+  EXPECT_GT(both, 100U);
 }
 
 /// Every flight begins where and when the one before it ended, or at an opening.
