@@ -143,4 +143,7 @@ TEST(Stationarity, GainOfParticles) {
   }
 }
 
+// Detected mistake: the p-value of too few replicas is 1, so that they count as stationary.
+TEST(Stationarity, FewReplicasAreNotTested) { EXPECT_TRUE(std::isnan(p_value(4, 0, 0, 1))); }
+
 }  // namespace stationarity_test
