@@ -51,14 +51,6 @@ def test_load_takes_the_order_of_dimensions_from_their_scales(path: Path) -> Non
     np.testing.assert_array_equal(after.mean.T, before.mean)
 
 
-def test_fitted_control_variates_take_degrees_of_freedom(path: Path) -> None:
-    with h5py.File(path, "r+") as file:
-        file[FLUX]["mean"].attrs["control_variates"] = 6
-    seal(path)
-    flux = load(path)["flux"]
-    np.testing.assert_array_equal(flux.dof, flux.replicas - 1.0 - 6)
-
-
 def test_to_frame_has_the_values_and_units_of_the_file(path: Path) -> None:
     frame = load(path)["flux"].to_frame()
     assert [*frame] == ["bond", "momentum", "mean", "standard_error", "count"]
