@@ -10,14 +10,7 @@ import pytest
 
 from tests.python.conftest import Program, seal
 from workflow.lib.identity import result_identity
-from workflow.lib.load import (
-    FORMAT_VERSION,
-    FormatError,
-    Quantity,
-    Result,
-    load,
-    load_provenance,
-)
+from workflow.lib.load import FORMAT_VERSION, FormatError, Quantity, Result, load, load_provenance
 
 FLUX = (
     "results/flux"  # over 4 bonds and 4 bins of the momentum, so that lengths do not identify the dimensions
