@@ -48,6 +48,7 @@ def test_a_conductivity_that_is_not_defined(
         ({"rule": "elastic"}, ()),
         ({"rule": "random-direction"}, (0,)),
         ({"rule": "reversal", "reversal_probability": 0.5}, (0,)),
+        ({"rule": "reversal", "reversal_probability": 0}, ()),
         ({"rule": "rotation", "rotation_probability": 0.5}, (0, 1)),
     ],
 )

@@ -1,6 +1,8 @@
-"""Rendering a panel: files that state what they are, tables with the numbers of the results."""
+"""Rendering a panel: files that state what they are, and are written together or not at all; tables with the
+numbers of the results."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +14,7 @@ from tests.python.conftest import ROOT, command_line
 from workflow.lib.caption import WARNINGS
 from workflow.lib.identity import sha256
 from workflow.lib.load import NOT_TESTED, load
+from workflow.render.files import format_os_error, write_atomically
 from workflow.render.record import SHARED, panel_identity, read_identity_line, sources_of_panel
 
 
@@ -79,3 +82,20 @@ def test_a_panel_without_a_value_is_refused_in_one_line(tmp_path: Path) -> None:
     printed = render("fig08", tmp_path / "fig08", [path], status=1)
     assert printed.startswith("no value to draw: ")
     assert printed.count("\n") == 1
+
+
+def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = tmp_path / "one", tmp_path / "other"
+    write_atomically({first: b"1", second: b"2"})
+    write = Path.write_bytes
+
+    def full(path: Path, content: bytes) -> int:
+        if path.name.startswith("other"):
+            raise OSError(28, "No space left on device", str(path))
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(OSError, match="No space left") as error:
+        write_atomically({first: b"3", second: b"4"})
+    assert format_os_error(error.value) == f"{second}.{os.getpid()}.tmp: No space left on device"
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"one": b"1", "other": b"2"}

@@ -7,10 +7,9 @@ import pandas as pd
 import pytest
 
 from tests.python.plotted import CHAIN, draw, points, result, right_scale
-from workflow.figures import accuracy, fig03_inset, fig09
+from workflow.figures import accuracy, fig03_inset
 from workflow.lib import style
 from workflow.lib.caption import warnings
-from workflow.lib.figure import NoValueError
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION
 from workflow.render.frame import outside
 
@@ -81,27 +80,6 @@ def test_more_series_than_looks_are_all_plotted() -> None:
     accuracy.draw_errors(kinetic, runs, runs[:0])
     assert len(points(of_sizes)) == len(kinetic.get_lines()) == len(kinetic.texts) == MANY
     plt.close("all")
-
-
-def test_a_pulse_is_plotted_at_all_times_shown() -> None:
-    times = np.linspace(0.01, 0.07, MANY)
-    axes = {"time": times, "cell": np.arange(5.0)}
-    laws = {"energy_difference": (np.ones((MANY, 5)), axes), "ring_closed": (np.zeros(MANY), {"time": times})}
-    laws["peak"] = (np.ones(MANY), {"time": times})
-    _, panel = plt.subplots()
-    fig09.draw_profiles(panel, result("rest", {"cells": 5, "scatterer_temperature": 0.0}, **laws), times)
-    assert len(panel.get_lines()) == MANY
-    plt.close("all")
-
-
-def test_a_figure_with_undefined_and_other_points_is_drawn() -> None:
-    figure, axes = plt.subplots()
-    axes.plot([1, 2], [np.nan, np.nan], "o")
-    with pytest.raises(NoValueError):
-        outside(figure)
-    axes.plot([1, 2], [np.nan, 1], "o")
-    assert outside(figure) == []
-    plt.close(figure)
 
 
 def test_a_run_without_a_value_is_named() -> None:

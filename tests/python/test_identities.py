@@ -1,50 +1,14 @@
 """Quantities that are functions of others in the same file, calculated again from these, in chains of N, n
 and γ that are no powers of two. Errors in the others are found by reference simulators and exact results."""
 
-import importlib
-import math
-from collections.abc import Iterator
-
 import numpy as np
 import pandas as pd
 import pytest
 
-from tests.python import plotted
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
 
 RING = {"cells": 7, "particles_per_cell": 3, "gamma": 2.6, "cell_length": 0.7, "replicas": 10}
 CHAIN = {"cells": 7, "gamma": 2.6, "cell_length": 0.7, "replicas": 20}
-
-
-SIZES = ("cells", "particles_per_cell", "cell_length", "gamma")
-
-
-def sizes(found: object, name: str) -> Iterator[float]:
-    """Numbers of an option in nested dictionaries and lists."""
-    if isinstance(found, dict):
-        for key, value in found.items():
-            if str(key).replace("-", "_") == name and isinstance(value, int | float):
-                yield float(value)
-            yield from sizes(value, name)
-    elif isinstance(found, list | tuple):
-        for each in found:
-            yield from sizes(each, name)
-
-
-def test_cases_are_not_all_powers_of_two() -> None:
-    """Positions j/N, rates γ/N and logarithms to the base of two are exact for powers of two, so that a
-    comparison of rounded numbers passes. Results that are made up for panels (plotted.py) compute nothing."""
-    found = []
-    for path in sorted((ROOT / "tests/python").glob("test_*.py")):
-        module = importlib.import_module(f"tests.python.{path.stem}")
-        for label, cases in vars(module).items():
-            for name in SIZES:
-                numbers = [number for number in sizes(cases, name) if number != 1]
-                dyadic = [math.frexp(number)[0] == 0.5 for number in numbers]
-                made_up = cases is getattr(plotted, label, None)
-                if dyadic and all(dyadic) and not made_up:
-                    found.append(f"{path.name}: {label} has {name} {numbers}")
-    assert not found
 
 
 def slope(x: np.ndarray, y: np.ndarray) -> float:
@@ -55,15 +19,18 @@ def middles(times: np.ndarray) -> np.ndarray:
     return np.sqrt(times[1:] * times[:-1])
 
 
-def test_local_slope_is_at_the_middle_of_its_times(measure: Measure) -> None:
-    """The last of the times is nearer to the one before than the others. Detected mistake: the middles are
-    those of equal steps."""
-    result = measure("displacement", **RING, decades=1.94, relaxation_time=3, observation_time=50)
+def test_slopes_of_a_displacement(measure: Measure) -> None:
+    """The last of the times is nearer to the one before than the others. Detected mistakes: the middles are
+    those of equal steps; alpha is fitted in another range of times."""
+    run = {"decades": 1.94, "fit_decades": 1, "relaxation_time": 3, "observation_time": 50}
+    result = measure("displacement", **RING, **run)
     variance, local = result["mean_square_displacement"], result["local_slope"]
     time = variance.axes["time"]
     assert time[-1] == 50
     np.testing.assert_allclose(local.axes["time"], middles(time), rtol=1e-14)
     np.testing.assert_allclose(local.mean, np.diff(np.log(variance.mean)) / np.diff(np.log(time)), rtol=1e-9)
+    late = time >= 4.999
+    assert result["alpha"].mean == pytest.approx(slope(time[late], np.log(variance.mean[late])), rel=1e-9)
 
 
 @pytest.mark.parametrize("times", ["3,10,30,90", "0.01,0.5,90"])
@@ -207,11 +174,3 @@ def test_moments_and_jump_of_the_flux(measure: Measure) -> None:
         for part in (slice(zero, zero + 2), slice(zero - 2, zero))
     ]
     np.testing.assert_allclose(result["jump"].mean, at[0] - at[1], atol=1e-9 * flux.max())
-
-
-def test_alpha_is_the_slope_at_late_times(measure: Measure) -> None:
-    """Detected mistake: another range of times."""
-    spread = measure("displacement", **RING, decades=3, relaxation_time=3, observation_time=50, fit_decades=1)
-    variance = spread["mean_square_displacement"]
-    time, late = variance.axes["time"], variance.axes["time"] >= 4.999
-    assert spread["alpha"].mean == pytest.approx(slope(time[late], np.log(variance.mean[late])), rel=1e-9)

@@ -59,15 +59,11 @@ def cpp(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("path", "text", "of"),
     [
-        ("statistics/fit.hpp", "int x;\n", {*PROGRAMS}),
         ("flags.cmake", "set(X -Ofast)\n", {*PROGRAMS}),
         ("CMakeLists.txt", "set(X)\n", set()),
         ("observables/heat_current/currents.hpp", "int x;\n", {"heat_current"}),
         ("boltzmann/solver.cpp", "int x;\n", {"boltzmann"}),
         ("model/rules/mine.hpp", "int x;\n", SAMPLED),
-        ("model/rules.hpp", "int x;\n", SAMPLED),
-        ("sampling/chain_parameters.cpp", "int x;\n", SAMPLED),
-        ("model/reservoir.hpp", "int x;\n", {*PROGRAMS}),
         ("observables/mine.cpp", "int main() {}\n", set()),
     ],
 )

@@ -3,38 +3,25 @@
 import signal
 import subprocess
 import time
+from functools import partial
 from pathlib import Path
-
-import pytest
 
 from tests.python.conftest import Program, command_line, soon
 from workflow.lib.load import cpu_seconds
 
-# The jackknife of 2000 replicas takes half of the run time of displacement, so that it is interrupted too.
-LONG = {
-    "persistence": {"observation-time": 2000, "replicas": 60},
-    "displacement": {
-        "cells": 5,
-        "particles-per-cell": 3,
-        "relaxation-time": 0,
-        "observation-time": 1,
-        "decades": 11,
-        "replicas": 2000,
-    },
-}
+# The jackknife of 2000 replicas takes half of the run time, so that it is interrupted too.
+LONG: dict[str, object] = {"cells": 5, "particles-per-cell": 3, "relaxation-time": 0, "observation-time": 1}
+LONG |= {"decades": 11, "replicas": 2000, "checkpoint-interval": 0.1}
 
 
-@pytest.mark.parametrize("name", LONG)
-def test_interrupted_and_resumed_run_gives_the_same_bytes(
-    program: Program, tmp_path: Path, name: str
-) -> None:
-    options = LONG[name] | {"checkpoint-interval": 0.1}
-    keywords = {key.replace("-", "_"): value for key, value in options.items()}
+def test_interrupted_and_resumed_run_gives_the_same_bytes(program: Program, tmp_path: Path) -> None:
+    keywords = {key.replace("-", "_"): value for key, value in LONG.items()}
+    run = partial(program, "displacement", **keywords)
     begin = time.monotonic()
-    assert program(name, **keywords, threads=1, output="whole.h5").returncode == 0
+    assert run(threads=1, output="whole.h5").returncode == 0
     duration, interrupted = time.monotonic() - begin, 0
     for part, number in ((0.3, signal.SIGTERM), (0.6, signal.SIGKILL)):
-        command = command_line(name, {**options, "threads": 1, "output": "out.h5"})
+        command = command_line("displacement", {**LONG, "threads": 1, "output": "out.h5"})
         process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.DEVNULL)
         time.sleep(part * duration)
         process.send_signal(number)
@@ -45,7 +32,7 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
             interrupted += 1
             assert status == (-number if number == signal.SIGKILL else 128 + number)
             assert not (tmp_path / "out.h5").exists()
-            assert program(name, **keywords, threads=2, resume=True).returncode == 0
+            assert run(threads=2, resume=True).returncode == 0
         assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
         assert cpu_seconds(tmp_path / "out.h5") > 0.7 * cpu_seconds(tmp_path / "whole.h5")
         for path in tmp_path.glob("out*"):  # a kill may leave a temporary file
@@ -55,8 +42,7 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
 
 
 def test_a_closed_terminal_is_ignored_with_nohup(tmp_path: Path) -> None:
-    options = LONG["persistence"] | {"checkpoint-interval": 0.1, "output": "out.h5"}
-    command = ["nohup", *command_line("persistence", options)]
+    command = ["nohup", *command_line("displacement", {**LONG, "output": "out.h5"})]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.DEVNULL)
     soon((tmp_path / "out.h5.checkpoint").exists)
     process.send_signal(signal.SIGHUP)

@@ -1,6 +1,8 @@
-"""The layers of cpp: includes go one way, so that each layer is understood without those above it."""
+"""Includes in cpp and imports in workflow go one way: a layer is understood without those above it."""
 
 import re
+
+import pytest
 
 from tests.python.conftest import ROOT
 
@@ -16,20 +18,8 @@ BELOW = {
     "observables": {"sampling", "engine", "boltzmann", "program", "statistics", "model", "numerics"},
 }
 
-
-def test_includes_run_one_way() -> None:
-    included = {
-        (source.relative_to(ROOT / "cpp").parts[0], layer)
-        for source in (ROOT / "cpp").rglob("*.[ch]pp")
-        for layer in re.findall(r'^#include "(\w+)/', source.read_text(), re.MULTILINE)
-    }
-    assert {own for own, _ in included} <= BELOW.keys()
-    assert {(own, layer) for own, layer in included if layer not in BELOW[own] | {own}} == set()
-
-
-# The same for the packages of workflow. All that runs while a panel is rendered is in its script, physics,
-# lib and
-# render, which its identity hashes, or in `inputs` of the panel. Nothing outside of the study imports it.
+# All that runs while a panel is rendered is in its script, physics, lib and render, which its identity
+# hashes, or in `inputs` of the panel. Nothing outside of the study imports it.
 PYTHON = {
     "lib": set(),
     "physics": {"lib"},
@@ -40,13 +30,19 @@ PYTHON = {
 }
 
 
-def test_imports_run_one_way() -> None:
-    imported = {
-        (source.relative_to(ROOT / "workflow").parts[0], package)
-        for source in (ROOT / "workflow").glob("*/**/*.py")
-        for package in re.findall(
-            r"(?:\bfrom|^import) workflow(?:\.(\w+))?", source.read_text(), re.MULTILINE
-        )
+@pytest.mark.parametrize(
+    ("folder", "files", "included", "allowed"),
+    [
+        ("cpp", "**/*.[ch]pp", r'^#include "(\w+)/', BELOW),
+        ("workflow", "*/**/*.py", r"(?:\bfrom|^import) workflow(?:\.(\w+))?", PYTHON),
+    ],
+    ids=["cpp", "workflow"],
+)
+def test_includes_run_one_way(folder: str, files: str, included: str, allowed: dict[str, set[str]]) -> None:
+    found = {
+        (source.relative_to(ROOT / folder).parts[0], layer)
+        for source in (ROOT / folder).glob(files)
+        for layer in re.findall(included, source.read_text(), re.MULTILINE)
     }
-    assert {own for own, _ in imported} <= PYTHON.keys()
-    assert {(own, package) for own, package in imported if package not in PYTHON[own] | {own}} == set()
+    assert {own for own, _ in found} <= allowed.keys()
+    assert {(own, layer) for own, layer in found if layer not in allowed[own] | {own}} == set()

@@ -10,14 +10,7 @@ import pytest
 
 from tests.python.conftest import Program, seal
 from workflow.lib.identity import result_identity
-from workflow.lib.load import (
-    FORMAT_VERSION,
-    FormatError,
-    Quantity,
-    Result,
-    load,
-    load_provenance,
-)
+from workflow.lib.load import FORMAT_VERSION, FormatError, Quantity, Result, load, load_provenance
 
 FLUX = (
     "results/flux"  # over 4 bonds and 4 bins of the momentum, so that lengths do not identify the dimensions
@@ -51,14 +44,6 @@ def test_load_takes_the_order_of_dimensions_from_their_scales(path: Path) -> Non
     np.testing.assert_array_equal(after.mean.T, before.mean)
 
 
-def test_fitted_control_variates_take_degrees_of_freedom(path: Path) -> None:
-    with h5py.File(path, "r+") as file:
-        file[FLUX]["mean"].attrs["control_variates"] = 6
-    seal(path)
-    flux = load(path)["flux"]
-    np.testing.assert_array_equal(flux.dof, flux.replicas - 1.0 - 6)
-
-
 def test_to_frame_has_the_values_and_units_of_the_file(path: Path) -> None:
     frame = load(path)["flux"].to_frame()
     assert [*frame] == ["bond", "momentum", "mean", "standard_error", "count"]
@@ -69,23 +54,6 @@ def test_to_frame_has_the_values_and_units_of_the_file(path: Path) -> None:
         row = frame[(frame.bond == bond) & (frame.momentum == momentum)]
         for name in ("mean", "standard_error", "count"):
             assert row[name].item() == file[FLUX][name][1, 2]
-
-
-@pytest.mark.parametrize(
-    "spoil",
-    [
-        lambda group: group["mean"].dims[1].detach_scale(group["momentum"]),
-        lambda group: group.__delitem__("count"),
-    ],
-)
-def test_a_quantity_without_an_axis_or_a_value_is_damaged(
-    path: Path, spoil: Callable[[h5py.Group], object]
-) -> None:
-    with h5py.File(path, "r+") as file:
-        spoil(file[FLUX])
-    seal(path)
-    with pytest.raises(FormatError, match="is damaged"):
-        load(path)
 
 
 def attribute(name: str, value: object) -> Callable[[Path], object]:
@@ -127,15 +95,11 @@ def test_a_file_that_cannot_be_opened_is_not_called_damaged(tmp_path: Path) -> N
         load(tmp_path)
 
 
-@pytest.mark.parametrize("path_of_values", [f"{FLUX}/mean", f"{FLUX}/momentum", "parameters"])
-def test_an_edited_value_is_refused(path: Path, path_of_values: str) -> None:
-    """Also an attribute: a figure would plot values at parameters that are not theirs."""
+def test_an_edited_value_is_refused(path: Path) -> None:
+    """A figure would plot values at parameters that are not theirs. tests/cpp/program/hdf5_file_test.cpp
+    changes every byte."""
     with h5py.File(path, "r+") as file:
-        edited = file[path_of_values]
-        if isinstance(edited, h5py.Dataset):
-            edited[-1] += 1
-        else:
-            edited.attrs["sigma"] = 0.05
+        file["parameters"].attrs["sigma"] = 0.05
     with pytest.raises(FormatError, match="edited or damaged"):
         load(path)
 

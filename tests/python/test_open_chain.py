@@ -197,8 +197,7 @@ def test_front_of_a_filling_chain(measure: Measure, gamma: str | float) -> None:
 
 
 def test_open_chain_between_equal_baths_is_gaussian(measure: Measure) -> None:
-    """g is Gaussian at the temperature of the baths, and F, which is compared with the reference simulator by
-    bins, has the moments of a Gaussian."""
+    """g is Gaussian at the temperature of the baths."""
     options = {"cells": 7, "gamma": 1.3, "replicas": 200, "relaxation_time": 20, "observation_time": 30}
     density = measure("steady_profile", **options, **EQUAL, momentum_bins=BINS)["scatterer_density"]
     inner = np.abs(density.axes["scaled_momentum"]) < 30
@@ -210,8 +209,6 @@ def test_open_chain_between_equal_baths_is_gaussian(measure: Measure) -> None:
 
     assert agrees(100)
     assert not agrees(110)
-    flux = measure("momentum_flux", **options, **EQUAL, momentum_bins=BINS)
-    assert agree((flux["kurtosis"].mean - 3) / flux["kurtosis"].error)
 
 
 @pytest.mark.parametrize(

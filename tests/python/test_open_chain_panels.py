@@ -2,14 +2,7 @@
 
 import numpy as np
 
-from tests.python.plotted import (
-    CHAIN,
-    assert_line,
-    assert_points,
-    both,
-    draw,
-    result,
-)
+from tests.python.plotted import CHAIN, assert_line, assert_points, both, draw, result
 from workflow.figures.fig08 import APART
 
 

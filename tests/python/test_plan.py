@@ -4,24 +4,13 @@ import shutil
 from pathlib import Path
 
 import pytest
-from ruamel.yaml import YAML
 
-from tests.python.conftest import ROOT, planned, sampled
+from tests.python.conftest import planned, sampled
 from workflow.lib.identity import run_name
 from workflow.pipeline.configuration import PANELS, ConfigurationError, Options
 from workflow.pipeline.plan import Plan, Run
 from workflow.pipeline.program import threads_of
-from workflow.pipeline.quality import QUALITIES, Quality
-
-
-@pytest.mark.parametrize("quality", QUALITIES)
-def test_every_quality_describes_every_panel(quality: str) -> None:
-    for panel in planned(quality):
-        assert (ROOT / panel.script).is_file()
-        for run in panel.runs:
-            assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
-            assert (run.program != "boltzmann") == sampled(run) == ("seed" in run.options)
-            assert run.options.get("replicas", 2) >= 2
+from workflow.pipeline.quality import Quality
 
 
 def test_names_and_seeds_are_unique() -> None:
@@ -42,21 +31,6 @@ def test_seeds_stay_as_they_are() -> None:
     }
     changed = planned("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
     assert changed.options == run.options | {"replicas": 5, "seed": 3127557821}
-
-
-def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
-    folder = Path(shutil.copytree(PANELS[0].parent, tmp_path / "config"))
-    yaml = YAML(typ="safe", pure=True)
-    yaml.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
-    paper = yaml.load(folder / "paper.yaml")
-    for panel in paper["panels"].values():
-        panel["common"] = dict(reversed(panel.get("common", {}).items()))
-    yaml.dump(paper, folder / "paper.yaml")
-    former, swapped = (
-        {(panel.name, run.name): run.options for panel in plan for run in panel.runs}
-        for plan in (Plan("paper", PANELS[:1]), Plan("paper", [folder / "paper.yaml"]))
-    )
-    assert former == swapped
 
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:

@@ -17,6 +17,11 @@ WITHOUT = ",".join(
     for form in ("", "_Usable")
 )
 MASKED = {"GLIBC_TUNABLES": f"glibc.cpu.hwcaps={WITHOUT}"}
+# The programs and GSL use the elementary functions of cpp/numerics/elementary.cpp.
+EXACT = {  # correctly rounded, or without rounding
+    *("sqrt", "fabs", "fmod", "frexp", "ldexp", "modf", "scalbn", "logb", "ilogb", "floor", "ceil", "trunc"),
+    *("round", "lround", "llround", "rint", "nearbyint", "fmin", "fmax", "fma", "copysign", "nextafter"),
+}
 PROGRAMS = sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp"))
 
 
@@ -48,3 +53,16 @@ def test_no_instruction_depends_on_the_processor(program: str) -> None:
         elif re.search(r"\t(fld|fadd|fmul|fild|fst|cpuid|xgetbv|vfmadd)", line):
             functions.add(function)
     assert not functions
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_no_program_uses_an_inexact_function_of_libm(program: str) -> None:
+    """Neither the program nor libgsl is bound to one."""
+    environment = os.environ | {"LD_BIND_NOW": "1", "LD_DEBUG": "bindings"}
+    command = [ROOT / "build/bin" / program, "--version"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    bound = re.findall(r"binding file (\S.*) \[0\] to \S*libm\S* \[0\]: normal symbol `(\w+)'", done.stderr)
+    own = (f"/{program}", "libgsl.so")
+    found = {name for file, name in bound if any(part in f"/{file}" for part in own)}
+    assert found & EXACT  # the linker has printed what is bound
+    assert found - EXACT == set()

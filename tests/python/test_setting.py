@@ -16,7 +16,7 @@ from workflow.figures import stability
 from workflow.lib.figure import Plot, TheoryError, holds
 from workflow.lib.load import Result
 from workflow.physics import setting
-from workflow.physics.paper import AXIS, BATHS, CHOICES, PAPER
+from workflow.physics.paper import AXIS, BATHS, PAPER
 from workflow.pipeline.plan import Panel, Plan, Run
 
 FILES = ("paper.yaml", "study.yaml")  # panels of other files are the user's own
@@ -154,15 +154,6 @@ def test_what_differs_is_named_with_its_series_and_the_papers_value() -> None:
     assert text_of(PANELS["fig08"], gamma).endswith(text)
     rings = [replace(one, parameters=one.parameters | {"cells": 3}) for one in shown(PANELS["fig07_inset"])]
     assert text_of(PANELS["fig07_inset"], rings).endswith("Not the paper's: N = 3 (paper: 11).")
-
-
-def test_declared_choices_are_those_of_series_that_exist() -> None:
-    plan = {panel.name: {run.series for run in panel.plotted} for panel in Plan("paper")}
-    for figure, choices in CHOICES.items():
-        series = {one for name, own in plan.items() if name.startswith(figure) for one in own}
-        assert not series or {*choices} - {""} <= series, (
-            figure
-        )  # none: a panel of the study, which may be missing
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,5 @@
 """Sound: speed and self-coupling from the Euler currents by computer algebra; the logarithm of slow
-particles."""
+particles; the quasi-stationary temperature of a closed chain."""
 
 from functools import cache
 from math import sqrt
@@ -10,6 +10,10 @@ import sympy
 from scipy.integrate import quad
 from sympy import Expr, Matrix, Symbol, exp, integrate, oo, simplify
 
+from tests.python.conftest import ROOT
+from workflow.figures import fig09
+from workflow.lib.load import Result
+from workflow.physics.closed import quasi_stationary
 from workflow.physics.sound import Chain, logarithm_at, slow_logarithm
 
 CHAINS = [Chain(1.6, 3), Chain(0.8, 1 / 3), Chain(3, 3, 2.5, 0.4), Chain(0.07, 10, 0.3, 2.0)]
@@ -87,3 +91,30 @@ def test_slow_logarithm() -> None:
     # Slower ones count by the part of a cell that they cross.
     expected, _ = quad(lambda q: np.exp(-(q**2) / 5) * min(300.0, 1 / q), 0, 30, points=[1 / 300], limit=200)
     assert logarithm_at(120, 2.5, 0.4) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("particles", [2, 20])
+def test_quasi_stationary_estimate_conserves_energy(particles: int) -> None:
+    """Detected mistakes: a factor of 2 or Λ is missing; the iteration has not converged."""
+    time = np.array([1.0, 1e3, 1e40])
+    temperature, slow = quasi_stationary(particles, 500, 1, time)
+    np.testing.assert_allclose(particles * temperature / slow + temperature, particles * 500)
+    np.testing.assert_allclose(temperature[-1], particles * 500, rtol=particles / 80)  # the energy saturates
+    expected = np.log(time[1] * np.sqrt(2 * temperature[1])) - np.euler_gamma / 2 + 1  # eq. 13 at late times
+    np.testing.assert_allclose(slow[1], expected, rtol=1e-6)
+
+
+def test_the_speed_of_sound_before_the_pulse() -> None:
+    """ζ = n/2Λ, and T conserves the energy [eqs. 13, 14, 56], in cells of length 2."""
+    options = {
+        "particles_per_cell": 50,
+        "energy": 5000,
+        "cell_length": 2.0,
+        "sigma": 0.5,
+        "relaxation_time": 1,
+    }
+    temperature, slow = (values.item() for values in quasi_stationary(50, 1e4, 2, 1))
+    assert 50 * temperature / slow + temperature == pytest.approx(50 * 1e4)
+    zeta = 50 / (2 * slow)
+    speed = np.sqrt(8 * zeta**2 * temperature / ((2 * zeta + 3) * (2 * zeta + 1))) / 2
+    assert fig09.sound_speed(Result(ROOT, options, {}, {})) == pytest.approx(speed)

@@ -8,15 +8,7 @@ import pytest
 from scipy.stats import binom
 
 from workflow.lib.text import format_with_error
-from workflow.study.verdict import (
-    Band,
-    Estimate,
-    Outcome,
-    Verdict,
-    critical,
-    level_of_each,
-    with_systematic,
-)
+from workflow.study.verdict import Band, Estimate, Outcome, Verdict, critical, level_of_each, with_systematic
 
 BAND = Band(-1, 1)
 LEVEL = 0.1

@@ -20,7 +20,6 @@ from workflow.pipeline import audit, verify
 ROOT = Path(__file__).parents[2]
 # Imported here, so that each fork has them and what they import already.
 PACKAGES = (audit, verify)
-OWN = ("workflow",)  # modules of this project
 PLAN = """panels:
   mu:
     program: persistence
@@ -129,7 +128,7 @@ def _workflow(folder: Path, words: tuple[str, ...], output: int, environment: di
     os.environ.clear()
     os.environ.update(environment)
     os.chdir(folder)
-    for name in [name for name in sys.modules if name.startswith(OWN)]:
+    for name in [name for name in sys.modules if name.startswith("workflow")]:
         del sys.modules[name]
     sys.path.insert(0, str(folder))
     sys.argv = ["workflow", *words]

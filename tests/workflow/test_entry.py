@@ -1,26 +1,12 @@
 """The entry: mistyped options get one line and exit status 2, and make passes its options."""
 
 import shutil
-import signal
 import sys
 from pathlib import Path
 
 import pytest
 
 from tests.workflow.conftest import ROOT, Project, plain
-
-INTERRUPTED = """
-import os, runpy, signal, sys
-
-class Interrupt:
-    def find_spec(name, path=None, target=None):
-        if name == "jsonschema":
-            os.kill(os.getpid(), signal.SIGINT)
-
-sys.meta_path.insert(0, Interrupt)
-sys.argv = ["workflow", "status"]
-runpy.run_module("workflow", run_name="__main__", alter_sys=True)
-"""
 
 
 @pytest.mark.parametrize(
@@ -39,11 +25,6 @@ def test_a_mistyped_option_gets_a_line(tmp_path: Path, words: str, line: str) ->
     printed = Project(ROOT).workflow(*words.split(), status=2, path=str(tmp_path))
     assert printed.startswith(line)
     assert len(printed.splitlines()) == 1
-
-
-def test_an_interruption_while_modules_are_imported_has_no_traceback(project: Project) -> None:
-    done = project.run(".venv/bin/python", "-c", INTERRUPTED, status=-signal.SIGINT)
-    assert done.stdout == ""
 
 
 def test_make_passes_its_options(project: Project) -> None:
@@ -92,15 +73,6 @@ def test_a_copied_build_is_refused_by_ninja(tmp_path: Path) -> None:
     ninja = ("ninja", "-C", shutil.copytree(ROOT / "build", tmp_path / "build", symlinks=True))
     done = Project(tmp_path).run(*ninja, "persistence", status=1)
     assert "make build" in done.stdout
-
-
-@pytest.mark.parametrize("words", [["help"], ["status", "QUALITY=smoke"]])
-def test_nothing_depends_on_mode_bits(project: Project, words: list[str]) -> None:
-    """As those of an archive that is unpacked by Python's zipfile."""
-    for name in ("workflow", "profiles", "cpp", "Makefile", "Snakefile"):
-        for path in (project.folder / name, *(project.folder / name).rglob("*")):
-            path.chmod(0o755 if path.is_dir() else 0o644)
-    project.run("make", *words)
 
 
 def test_a_complete_environment_needs_no_uv(tmp_path: Path) -> None:

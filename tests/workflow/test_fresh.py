@@ -95,19 +95,6 @@ def test_equal_inputs_give_equal_bytes_in_any_environment(project: Project) -> N
     assert project.products() == before
 
 
-def test_a_program_that_is_older_than_its_sources_is_refused(project: Project) -> None:
-    append("cpp/statistics/fit.hpp", "int x;\n")(project)
-    assert "is not built from the present sources: run make build" in project.entry("figures", status=1)
-    for former in (project.folder / "build/bin").iterdir():
-        former.unlink()
-    assert "is missing: run make build" in project.entry("figures", status=1)
-
-
-def test_a_program_without_a_source_is_unknown(project: Project) -> None:
-    text(PAPER, "program: displacement", "program: heat_current")(project)
-    assert "heat_current" in project.entry("status", status=2)
-
-
 def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(project: Project) -> None:
     """Not after other times, a move or a comment; but one that does not start, whatever it contains."""
     (project.folder / "workflow/pipeline/environment/build.sh").write_text("echo compiled\n")

@@ -74,21 +74,14 @@ STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
         0,
         [],
     ),
-    "results": (
-        [edit_value, remove(OTHER_MU)],
+    "results and files": (
+        [edit_value, remove(OTHER_MU), write(TABLE), remove("figures/smoke/energy.svg")],
         "status",
         1,
         [
             ("edited", MU, "edited or damaged"),
             ("missing", OTHER_MU, ""),
-        ],
-    ),
-    "files": (
-        [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")],
-        "status",
-        1,
-        [
-            ("edited", "figures/smoke/mu.csv", "differs from its hash"),
+            ("edited", TABLE, "differs from its hash"),
             ("missing", "figures/smoke/energy.svg", ""),
         ],
     ),

@@ -113,15 +113,6 @@ def test_another_series_is_plotted_or_named_and_changes_nothing_else(smoke: Path
     plt.close("all")
 
 
-def test_a_figure_is_drawn_in_another_style(smoke: Path, tmp_path: Path) -> None:
-    draw = importlib.import_module("workflow.figures.fig08").draw
-    with plt.rc_context({"axes.labelsize": 17}):
-        figure, table, _ = draw(load_panel("fig08", "smoke").values())
-        figure.savefig(tmp_path / "talk.pdf")
-    assert {axes.xaxis.label.get_size() for axes in figure.axes} == {17}
-    assert len(table) == len(pd.read_csv(smoke / "figures/smoke/fig08.csv", comment="#"))
-
-
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_is_rendered_from_one_replica(smoke: Path, panel: str) -> None:
     """REPLICAS=1: no error is known. Detected mistakes: a fit that fails, a mean without weights, an axis
@@ -160,15 +151,9 @@ FRAME = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", "b"]})
     "table",
     [
         FRAME.groupby("sigma").max(),
-        FRAME.groupby(["sigma", "label"]).sum(),
         FRAME.set_axis(["x", "y"]),
-        FRAME.set_axis([0, 1], axis=1),
-        FRAME.groupby("label").agg(["min", "max"]).reset_index(),
-        FRAME.set_axis(["label", "label"], axis=1),
         FRAME.rename(columns={"label": "#"}),
-        FRAME.assign(sigma=[np.arange(2), np.arange(2)]),
-        *(FRAME.assign(label=[word, "b"]) for word in ("a # 1", "NA", "null", "")),
-        FRAME.assign(sigma=[1j, 2]),
+        FRAME.assign(label=["NA", "b"]),
     ],
 )
 def test_a_table_that_its_csv_would_not_hold_is_refused(table: pd.DataFrame) -> None:

@@ -16,47 +16,6 @@ namespace closed_dynamics_test {
 using namespace lorentz;
 using namespace support;
 
-TEST(Simulate, DoesNotDependOnStopsInBetween) {
-  const ClosedChain chain{{.cells = 11}, 20};
-  const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
-  const std::vector<Collision> whole = collisions(chain, start, 20);
-  ASSERT_GT(whole.size(), 10000U);
-  for (const double piece : {7.0, 0.5, 0.001}) {
-    ClosedDynamics dynamics(chain, start, 20, {1, 0});
-    Recorder recorder;
-    for (double until = 0; until < 20;) simulate(dynamics, until += piece, recorder, nothing);
-    expect_same(recorder.collisions, whole);
-    EXPECT_EQ(dynamics.events(), whole.size());
-  }
-  ClosedDynamics longer(chain, start, 1e5, {1, 0});  // a later end freezes fewer particles only
-  Recorder recorder;
-  simulate(longer, 20, recorder, nothing);
-  expect_same(recorder.collisions, whole);
-}
-
-// Two particles that are mirror images reach the scatterer at 1.5 at the same time, 0.25. The particle with
-// the lower number scatters first, and the other one meets the scatterer in its new state.
-TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
-  const ClosedChain chain{{.cells = 3, .sigma = 0}, 1};
-  const Particle left{1.25, 1}, right{1.75, -1}, elsewhere{0.25, 0};
-  for (const bool left_first : {true, false}) {
-    const PhasePoint start{{left_first ? left : right, left_first ? right : left, elsewhere}, {0, 0.125, 0}};
-    const std::vector<Collision> all = collisions(chain, start, 0.5);
-    ASSERT_EQ(all.size(), 2U);
-    const double sign = left_first ? 1 : -1;
-    for (std::uint32_t k : {0U, 1U}) {
-      EXPECT_EQ(all[k].time, 0.25);
-      EXPECT_EQ(all[k].particle, k);
-      EXPECT_EQ(all[k].scatterer, 1U);
-    }
-    EXPECT_EQ(all[0].particle_after, 0.125);
-    EXPECT_EQ(all[0].scatterer_after, sign);
-    EXPECT_EQ(all[1].scatterer_before, sign);
-    EXPECT_EQ(all[1].particle_after, sign);
-    EXPECT_EQ(all[1].scatterer_after, -sign);
-  }
-}
-
 // A rotation is reported with the side of the neighbour that it changed, on the ring, too.
 TEST(Simulate, ReportsTheNeighbourThatARuleChanges) {
   const ClosedChain chain{{.cells = 4, .rule = {"rotation", {1}}}, 1};

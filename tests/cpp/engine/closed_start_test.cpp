@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <vector>
 
 #include "model/rules/elastic.hpp"
@@ -30,10 +29,7 @@ double evenness(const std::function<double(std::size_t)>& place_of) {
   std::vector<double> bins(100, 0);
   for (std::size_t i = 0; i < chain.particles(); ++i)
     bins.at(static_cast<std::size_t>(100 * place_of(i))) += 1;
-  const double expected = chain.particles() / 100.0;
-  return std::accumulate(bins.begin(), bins.end(), 0.0, [expected](double sum, double count) {
-    return sum + (count - expected) * (count - expected) / expected;
-  });
+  return support::unevenness(bins);
 }
 
 TEST(InitialState, PlacesParticlesEvenlyInTheirOwnCells) {
@@ -67,15 +63,6 @@ TEST(InitialState, DrawsVelocitiesAtTheTemperatures) {
   // particles.
   EXPECT_FALSE(plausible(particles / 2, chain.particles()));
   EXPECT_FALSE(plausible(scatterers * temperatures.scatterers / temperatures.particles, chain.cells));
-}
-
-// The particles have streams of their own, so that the scatterers' temperature does not change them.
-TEST(InitialState, ScatterersAreAtRestAtTemperatureZero) {
-  const PhasePoint colder = closed_chain_start(chain, {500, 0}, false, {1, 0});
-  EXPECT_EQ(colder.scatterers, std::vector<double>(chain.cells, 0));
-  const PhasePoint warmer = start();
-  for (std::size_t i = 0; i < chain.particles(); ++i)
-    ASSERT_EQ(colder.particles[i].velocity, warmer.particles[i].velocity);
 }
 
 // The bound is the rounding error of a sum of that many numbers in double precision.

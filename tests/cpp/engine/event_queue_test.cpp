@@ -45,7 +45,7 @@ struct Schedule {
   double interval;                // mean time between two stops, at which particles enter
   std::size_t longest = 100'000;  // number of events after which the comparison ends
   bool entering = false;
-  double exits = 0, splits = 0;  // probabilities that at an event a particle leaves, or another one enters
+  double exits = 0;  // probability that at an event a particle leaves
 };
 
 /// Runs the queue and an ordered set of (time, particle) side by side, with stops in between: a particle that
@@ -54,7 +54,7 @@ struct Schedule {
 std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
   Generator generator(schedule.population);
   std::exponential_distribution<double> interval(1 / schedule.interval);
-  std::bernoulli_distribution leaves(schedule.exits), splits(schedule.splits);
+  std::bernoulli_distribution leaves(schedule.exits);
   std::set<std::pair<double, std::uint32_t>> expected;
   const auto expect = [&](const Flight& flight) {
     if (flight.time < schedule.end_time) expected.emplace(flight.time, flight.particle);
@@ -65,11 +65,6 @@ std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
     expect(first.emplace_back(Flight{schedule.delay(generator), 1, 0, ids.take()}));
   EventQueue queue(first, rate, schedule.end_time);
   EventQueue::Cursor cursor(queue);
-  const auto enter = [&](double time) {
-    const Flight newcomer{time + schedule.delay(generator), 1, 0, ids.take()};
-    expect(newcomer);
-    cursor.add(newcomer);
-  };
 
   std::size_t events = 0;
   for (double until = 0; until < schedule.end_time && events < schedule.longest;) {
@@ -89,7 +84,6 @@ std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
         ids.give_back(flight.particle);
         return;
       }
-      if (schedule.splits > 0 && splits(generator)) enter(flight.time);
       flight.time += schedule.delay(generator);
       expect(flight);
       if (flight.particle % 2 == 0)
@@ -104,7 +98,9 @@ std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
       return events;
     }
     if (!schedule.entering || !(until < schedule.end_time)) continue;
-    enter(until);
+    const Flight newcomer{until + schedule.delay(generator), 1, 0, ids.take()};
+    expect(newcomer);
+    cursor.add(newcomer);
   }
   return events;
 }
@@ -174,42 +170,6 @@ TEST(EventQueue, LetsParticlesEnterAndLeave) {
   compare_for_every_rate({0, 300, quantised, 0.05, 50'000, entering, 0.1}, 1);
   for (const double rate : {1., 5000.})
     EXPECT_GE(compare_with_ordered_set({0, 6, heavy_tailed(1), 2e-4, 200'000, entering}, rate), 30'000U);
-}
-
-// As where a particle of a pair of trajectories diverges: a flight is added during an arrival.
-TEST(EventQueue, TakesFlightsThatAreAddedDuringAnArrival) {
-  constexpr bool entering = false;
-  compare_for_every_rate({200, 1000, heavy_tailed(1), 0.3, 50'000, entering, 0.1, 0.1}, 200);
-  compare_for_every_rate({20, 40, quantised, 0.3, 50'000, entering, 0, 0.05}, 20);
-}
-
-// All times are multiples of 1/4, which a difference of times does not round. One particle never arrives.
-TEST(EventQueue, KeepsAllFlightsWhenTheOriginMoves) {
-  using Events = std::vector<std::pair<double, std::uint32_t>>;
-  const auto run = [](bool moves) {
-    Generator generator(5);
-    std::vector<Flight> first{{infinity, 1, 0, 20}};
-    for (std::uint32_t particle = 0; particle < 20; ++particle)
-      first.push_back({quantised(generator), 1, 0, particle});
-    EventQueue queue(first, 20, 100);
-    Events events;
-    double origin = 0;
-    for (double until = 0; until < 110; until += 8) {
-      const auto take = [&](Flight flight, EventQueue::Cursor& cursor) {
-        events.emplace_back(origin + flight.time, flight.particle);
-        flight.time += quantised(generator);
-        cursor.reschedule<true>(flight);
-      };
-      EventQueue::Cursor(queue).take_before(until - origin, take, [](double) {});
-      if (moves && until < 100) queue.shift(until - std::exchange(origin, until));
-    }
-    for (const Flight& flight : queue.flights()) events.emplace_back(origin + flight.time, flight.particle);
-    return events;
-  };
-  const Events events = run(false);
-  EXPECT_GT(events.size(), 1000U);
-  EXPECT_EQ(events.back(), std::pair(infinity, 20U));
-  EXPECT_EQ(run(true), events);
 }
 
 // Every flight that outlasts the revolution takes a new slot; free slots are reused.

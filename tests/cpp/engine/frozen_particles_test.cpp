@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "engine/closed_dynamics.hpp"
@@ -13,6 +14,12 @@ namespace frozen_particles_test {
 using namespace lorentz;
 using namespace support;
 
+/// All numbers of a collision.
+auto numbers(const Collision& one) {
+  return std::tuple(one.time, one.particle, one.scatterer, one.particle_before, one.particle_after,
+                    one.scatterer_before, one.scatterer_after);
+}
+
 // A particle that never arrives has no effect: the chain without it has the same collisions.
 TEST(FrozenParticles, TouchNothing) {
   const ClosedChain few{{.cells = 4}, 2};
@@ -23,7 +30,7 @@ TEST(FrozenParticles, TouchNothing) {
   for (const double velocity : {0.0, -0.0, 5e-324, -5e-324, 1e-310, -1e-308}) {
     PhasePoint crowded = start;
     for (const double position : {0.5, 0.0, 3.999, 2.5}) crowded.particles.push_back({position, velocity});
-    expect_same(collisions(more, crowded, 50), expected);
+    EXPECT_TRUE(std::ranges::equal(collisions(more, crowded, 50), expected, {}, numbers, numbers));
     ClosedDynamics dynamics(more, crowded, 50, {1, 0});
     NoObserver nobody;
     simulate(dynamics, 50, nobody, nothing);

@@ -117,20 +117,6 @@ TEST(OpenDynamics, FlightsOfAParticleJoin) {
   EXPECT_EQ(newcomers, seen.entries + at_start);
 }
 
-TEST(OpenDynamics, StopsInBetweenChangeNothing) {
-  for (const double gamma : {infinity, 2.}) {
-    const OpenChain chain = chain_of(6, gamma);
-    const auto scatterers = [&](double step) {
-      OpenDynamics dynamics(chain, empty_start(chain), 30, {1, 4});
-      NoObserver nobody;
-      for (double until = step; until <= 30; until += step)
-        simulate(dynamics, until, nobody, support::nothing);
-      return dynamics.scatterers();
-    };
-    EXPECT_EQ(scatterers(30), scatterers(0.125));
-  }
-}
-
 /// Sums over a window: crossed marks, time spent, energy entering and leaving, collisions.
 struct InWindow {
   Window window{};

@@ -51,7 +51,7 @@ class Tolerance {
   std::vector<double> times_;
 };
 
-/// Compares each of the first `events` collisions.
+/// Compares each of the first `events` collisions. The engine stops many times in between.
 template <class Real>
 void compare(const ClosedChain& chain, std::size_t events, std::uint64_t seed) {
   SCOPED_TRACE(testing::Message() << "sigma " << chain.sigma << ", " << chain.cells << " cells, "
@@ -64,7 +64,7 @@ void compare(const ClosedChain& chain, std::size_t events, std::uint64_t seed) {
   ClosedDynamics dynamics(chain, start, 1e6, {1, 0});
   support::Recorder engine;
   for (double until = 0; engine.collisions.size() < events && until < 1e6;)
-    simulate(dynamics, until += 1, engine, support::nothing);
+    simulate(dynamics, until += 0.01, engine, support::nothing);
   ASSERT_GE(engine.collisions.size(), events);
 
   Tolerance tolerance(chain, start);

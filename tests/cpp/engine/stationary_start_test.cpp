@@ -36,10 +36,7 @@ double evenness(const PhasePoint& point, const Pair& pair_of) {
     const auto [x, y] = pair_of(particle);
     bins.at(20 * static_cast<std::size_t>(20 * x) + static_cast<std::size_t>(20 * y)) += 1;
   }
-  const double expected = static_cast<double>(point.particles.size()) / 400;
-  double sum = 0;
-  for (const double count : bins) sum += (count - expected) * (count - expected) / expected;
-  return sum;
+  return support::unevenness(bins);
 }
 
 /// Fraction of the density exp(-p^2/2T)/p on p > slowest at momenta above that of a particle.

@@ -94,31 +94,6 @@ TEST(Rules, HaveTheirProperties) {
   }
 }
 
-// Collisions exchange energy, and not only momenta, where the rule states so: at equal masses, and at masses
-// of 0 and infinity, without noise and with it. Detected mistakes: the elastic rule's answer for all rules;
-// that of a rule that conserves momentum.
-TEST(Rules, ConductWhereTheyStateIt) {
-  for (const RuleProperties& rule : rules::all) {
-    if (!rule.conducts) continue;
-    for (const double sigma : {-1., 0., 0.3, 1.}) {
-      if (rule.name == Printed::properties.name && std::abs(sigma) == 1) continue;
-      RuleChoice never = support::example(rule);
-      for (std::size_t k = 0; k < rule.options.size(); ++k) never.options[k] = 0;
-      for (const RuleChoice& choice : {support::example(rule), never}) {
-        const Encounters seen = encounters(make_rule(choice, sigma), 1);
-        std::size_t energy = 0, momenta = 0;  // number of collisions that exchange energy; momenta only
-        for (std::size_t k = 0; k < collisions; ++k) {
-          const Velocities &before = seen.before[k], &after = seen.after[k];
-          energy += std::abs(after.u * after.u - before.u * before.u) > 1e-12 ? 1 : 0;
-          momenta += after.u == before.U && after.U == before.u ? 1 : 0;
-        }
-        EXPECT_EQ(energy > 0 && momenta < collisions, rule.conducts(sigma, choice.options))
-            << rule.name << " " << sigma;
-      }
-    }
-  }
-}
-
 /// Frequency of the collisions with value(velocities) of opposite sign after two rules, and of equal
 /// magnitude.
 support::Sample reversals(const Encounters& one, const Encounters& other, auto&& value) {
@@ -174,15 +149,6 @@ TEST(Rules, RotationIsUniformAndReversible) {
     for (const std::vector<double>& each : values)
       EXPECT_LT(std::abs(support::z_score(support::sample(each), 0)), 4) << sigma;
   }
-}
-
-// A part of the collisions, as given, is followed by a rotation.
-TEST(Rules, RotationHasItsProbability) {
-  const Encounters elastic = encounters(Elastic(0.4), 1), rotated = encounters(Rotation(0.4, 0.03), 1);
-  std::vector<double> changed;
-  for (std::size_t k = 0; k < collisions; ++k)
-    changed.push_back(elastic.after[k].u == rotated.after[k].u ? 0 : 1);
-  EXPECT_LT(std::abs(support::z_score(support::sample(changed), 0.03)), 4);
 }
 
 // The paper's formula and the form used here are one map, but for rounding and the change of sigma by 1e-11.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -77,12 +78,6 @@ TEST(Hdf5File, AChangeOfAnyByteChangesTheChecksum) {
   EXPECT_FALSE(is_intact(path));
 }
 
-TEST(Hdf5File, RefusesASizeThatIsNotThatOfTheShape) {
-  Hdf5Writer file;
-  EXPECT_THROW(file.array("/group", {"x", "1", "Three", {axis("i", 3)}}, reals), std::invalid_argument);
-  EXPECT_THROW(file.array("/group", {"x", "1", "A number"}, reals), std::invalid_argument);
-}
-
 TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.h5", other = folder / "b.h5";
@@ -91,6 +86,8 @@ TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   support::write_file(other, "not HDF5");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{other}; }), "");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{folder / "absent.h5"}; }), "");
+  std::filesystem::create_directory(folder / "c.h5");
+  EXPECT_NE(support::refusal([&] { require_writable(folder / "c.h5"); }), "");
 }
 
 }  // namespace hdf5_file_test

@@ -223,6 +223,11 @@ TEST_F(StudyTest, DiscardsACheckpointOnlyWithOverwrite) {
   for (const Arguments& more : {Arguments{}, {"--seed", "2"}, {"--seed", "2", "--resume"}})
     expect_refused_run(with(to_output, more), "a.h5.checkpoint");
   EXPECT_EQ(content_of(folder / "a.h5.checkpoint"), before);
+  std::string damaged = before;
+  damaged[damaged.size() / 2] ^= 1;
+  write_file(folder / "a.h5.checkpoint", damaged);
+  expect_refused_run(with(to_output, {"--resume"}), "damaged");
+  write_file(folder / "a.h5.checkpoint", before);
   EXPECT_EQ(run(with(to_output, {"--resume", "--overwrite", "--seed", "2"})), 0);
   EXPECT_FALSE(folder.names().contains("a.h5.checkpoint"));
   expect_same_bytes_as({"--seed", "2"});

@@ -62,30 +62,20 @@ class HeapSimulator {
 
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
-  const std::vector<Real>& scatterers() const { return P_; }
-
-  /// Energy and momentum of the scatterer and the particles of every cell, at a time between the last event
-  /// and the next one. Cells are those around scatterers, or, shifted by 1/2, those from scatterer i to the
-  /// next one.
-  struct Totals {
-    std::vector<Real> energy, momentum;
-  };
-  Totals totals(Real time, Real shift = 0) const {
-    Totals cells{{}, P_};
-    for (const Real P : P_) cells.energy.push_back(P * P / (2 * scatterer_mass()));
+  /// Energy of the scatterer and the particles of every cell, at a time between the last event and the next
+  /// one.
+  std::vector<Real> cell_energies(Real time) const {
+    std::vector<Real> energies;
+    for (const Real P : P_) energies.push_back(P * P / (2 * scatterer_mass()));
     const Real length = cell_length_ * static_cast<Real>(P_.size());
     for (auto pending = pending_; !pending.empty(); pending.pop()) {
       const Pending& next = pending.top();
-      Real x = centre(static_cast<long>(next.scatterer)) - next.p * (next.time - time) - shift * cell_length_;
+      Real x = centre(static_cast<long>(next.scatterer)) - next.p * (next.time - time);
       x -= length * std::floor(x / length);
-      const std::size_t cell = static_cast<std::size_t>(x / cell_length_) % P_.size();
-      cells.energy[cell] += next.p * next.p / 2;
-      cells.momentum[cell] += next.p;
+      energies[static_cast<std::size_t>(x / cell_length_) % P_.size()] += next.p * next.p / 2;
     }
-    return cells;
+    return energies;
   }
-
-  std::vector<Real> cell_energies(Real time) const { return totals(time).energy; }
 
   /// Processes crossings up to the next collision before `until`; false if there is none.
   bool step(Real until, Event& event) {

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   const std::string name = argc > 1 ? argv[1] : "";
   const Arguments arguments(argc, argv);
   if (name == "closed_chain") return ClosedChain{arguments}.run(), 0;
-  if (name == "open_chain") return run_open_chain(arguments), 0;
+  if (name == "open_chain") return OpenChain{arguments}.run(), 0;
   if (name == "pulse") return Pulse{arguments}.run(), 0;
   std::fprintf(stderr, "no simulator is named '%s'\n", name.c_str());
   return 2;

@@ -95,18 +95,6 @@ TEST(Stationarity, FalseAlarmsHaveTheStatedFrequency) {
   EXPECT_NEAR(alarms, 0.02 * runs, 4 * std::sqrt(0.02 * runs));
 }
 
-// Detected mistake: a column is left out.
-TEST(Stationarity, ADifferenceInOneColumnIsFound) {
-  TallySchema schema;
-  const HalfDifferenceTallies tallies(schema);
-  Columns tested = tallies.halves();
-  tested.push_back(tallies.energy.column);
-  for (const std::size_t column : tested) {
-    EXPECT_LT(p_value(32, column, 12, 1), 1e-4) << column;
-    EXPECT_GT(p_value(32, column, 0, 1), 1e-4) << column;
-  }
-}
-
 // The p-value is twice the two-sided one of Student's t, exact for records whose mean and deviation are
 // known. Detected mistakes: a one-sided or uncorrected p-value; degrees of freedom of as many as records.
 TEST(Stationarity, ThresholdOfThePValue) {

@@ -21,6 +21,13 @@ Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tal
   return values;
 }
 
+/// A flight from a position to the marks first, ..., last; positions in half cells, of which it crosses one
+/// per time.
+Path flight(double departure, double arrival, double velocity, double from, std::int64_t first,
+            std::int64_t last) {
+  return {departure, arrival, velocity, from, first, last, 1};
+}
+
 // One flight to the right crosses two bonds in the bin [0, 2); one to the left crosses the first bond in [-4,
 // -2); the momentum of a third one is outside of all bins. Detected mistakes: bonds are counted from the
 // scatterers on; the halves p < 0 and p > 0 are exchanged; arrays have the bins as first dimension; p^3 is
@@ -28,27 +35,9 @@ Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tal
 TEST(BondCrossings, ByMomentumAndDirection) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
-  observer.on_flight({.departure = 3,
-                      .arrival = 6,
-                      .velocity = 1,
-                      .from = 0,
-                      .first = 0,
-                      .last = 3,
-                      .time_per_half_cell = 1});
-  observer.on_flight({.departure = 5,
-                      .arrival = 6,
-                      .velocity = -2.5,
-                      .from = 1,
-                      .first = 0,
-                      .last = 0,
-                      .time_per_half_cell = 1});
-  observer.on_flight({.departure = 5,
-                      .arrival = 6,
-                      .velocity = 5,
-                      .from = 3,
-                      .first = 4,
-                      .last = 4,
-                      .time_per_half_cell = 1});
+  observer.on_flight(flight(3, 6, 1, 0, 0, 3));
+  observer.on_flight(flight(5, 6, -2.5, 1, 0, 0));
+  observer.on_flight(flight(5, 6, 5, 3, 4, 4));
   EXPECT_EQ(sums(observer, tallies, tallies.crossings), (Values{1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0}));
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{1, 0, 0, 1, 1, 1}));
   EXPECT_EQ(sums(observer, tallies, tallies.sums[1]), (Values{6.25, 0, 0, 1, 1, 25}));
@@ -59,20 +48,8 @@ TEST(BondCrossings, ByMomentumAndDirection) {
 TEST(BondCrossings, WithinTheWindow) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
-  observer.on_flight({.departure = 1,
-                      .arrival = 4,
-                      .velocity = 1,
-                      .from = 0,
-                      .first = 0,
-                      .last = 3,
-                      .time_per_half_cell = 1});
-  observer.on_flight({.departure = 9,
-                      .arrival = 11,
-                      .velocity = 1,
-                      .from = 1,
-                      .first = 2,
-                      .last = 3,
-                      .time_per_half_cell = 1});
+  observer.on_flight(flight(1, 4, 1, 0, 0, 3));
+  observer.on_flight(flight(9, 11, 1, 1, 2, 3));
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{0, 0, 0, 0, 1, 0}));
 }
 
