@@ -80,7 +80,7 @@ def caption(table: pd.DataFrame) -> str:
     return Caption(text, steep=format_number(STEEP), density=density, **numbers)
 
 
-@plots("paper zero-momentum dense")
+@plots("paper zero-momentum dense", apart="particles_per_cell")
 def draw(results: Sequence[Result]) -> Parts:
     require("the law arccos(σ)/π", results)
     table = tabulate(results)
