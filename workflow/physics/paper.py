@@ -10,8 +10,8 @@ BATHS = ("nu_left", "nu_right", "temperature_left", "temperature_right")
 UNEQUAL: Stated = dict(zip(BATHS, ([220], [180], ["81.818"], ["122.222"]), strict=True))
 EQUAL: Stated = {name: [100] for name in BATHS}
 START: Stated = {"scatterer_temperature": [0], "zero_total_momentum": [False]}
-RING: Stated = {"cells": [11], "particles_per_cell": [20], "temperature": [500], "gamma": ["N"]} | START
-PULSE: Stated = {"cells": [101], "particles_per_cell": [50], "sigma": [0.5], "gamma": [1, "N"]} | START
+RING = START | {"cells": [11], "particles_per_cell": [20], "temperature": [500], "gamma": ["N"]}
+PULSE = START | {"cells": [101], "particles_per_cell": [50], "sigma": [0.5], "gamma": [1, "N"]}
 PULSE |= {"energy": [5000], "pulse_energy": [50000], "pulse_cells": [1]}
 
 # By panel, or by its first five letters, which are those of a figure. The rule of all is elastic.

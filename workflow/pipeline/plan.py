@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -24,7 +25,6 @@ from workflow.pipeline.configuration import (
     programs_of,
     require_distinct,
 )
-from workflow.pipeline.polynomial import evaluated
 from workflow.pipeline.quality import DEFAULT_QUALITY, Quality
 from workflow.pipeline.sources import is_sampled, source_hash
 from workflow.render.files import missing
@@ -298,7 +298,7 @@ class Plan:
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
             name, one = run_name(series, chosen), options | chosen
-            one = {key: evaluated(value, one.get("cells")) for key, value in one.items()}
+            one = {key: in_numbers(value, one.get("cells")) for key, value in one.items()}
             if is_sampled(program):
                 one = self.quality.with_effort(f"{panel}/{name}", one, scale)
             yield Run(name, series, program, one, f"data/{self.quality.name}/{panel}", where)
@@ -320,6 +320,12 @@ class Plan:
                     raise ConfigurationError(
                         document.complaint((*keys, "inputs", number), f"{text}: write it there")
                     )
+
+
+def in_numbers(value: object, cells: object) -> object:
+    """A multiple of the number of cells, as 0.05N, as a number; other values of options as they are."""
+    multiple = re.fullmatch(r"([0-9.]+)N", str(value))
+    return float(f"{float(multiple[1]) * cells:.12g}") if multiple and isinstance(cells, int) else value
 
 
 def runs_of(panels: Iterable[Panel]) -> dict[str, Run]:
