@@ -30,12 +30,10 @@ from workflow.pipeline.sources import is_sampled, source_hash
 from workflow.render.files import missing
 from workflow.render.record import (
     FORMATS,
-    NUMBERS,
     panel_identity,
     read_record,
     record_name,
     sources_of_panel,
-    states_release,
 )
 
 FIGURES = "figures"
@@ -249,10 +247,8 @@ class Plan:
         """None without the study. Panels of the user are not in it."""
         if not STUDY.parent.exists():
             return None
-        inputs = ["workflow/study", "workflow/pipeline"]
-        inputs += [NUMBERS] if states_release(self.quality.name) else []
-        script = "workflow/study/report.py"
-        return Report(REPORT, self.quality.name, script, tuple(inputs), tuple(self.reported))
+        inputs = ("workflow/study", "workflow/pipeline")
+        return Report(REPORT, self.quality.name, "workflow/study/report.py", inputs, tuple(self.reported))
 
     @property
     def reported(self) -> list[Panel]:
@@ -278,13 +274,11 @@ class Plan:
         folders = [folder for folder in (SCRIPTS.get(document.file), FIGURE_SCRIPTS) if folder]
         paths = [f"{folder}/{panel.get('script', name)}.py" for folder in folders]
         script = next((path for path in paths if (ROOT / path).exists()), paths[0])
-        released = states_release(self.quality.name)
-        inputs = tuple(path for path in panel.get("inputs", ()) if path != NUMBERS or released)
         return Panel(
             name,
             self.quality.name,
             script,
-            inputs,
+            tuple(panel.get("inputs", ())),
             runs=tuple(runs),
             replaced=tuple(replaced),
             file=document.file,
@@ -315,7 +309,7 @@ class Plan:
                 document.require(used, with_runs, (*keys, "uses", number), "panel with runs")
             for number, path in enumerate(panel.get("inputs", ())):
                 inside = not Path(path).is_absolute() and ".." not in Path(path).parts
-                if path != NUMBERS and not (inside and (ROOT / path).exists()):
+                if not (inside and (ROOT / path).exists()):
                     text = f"{path} is not a file or folder below {ROOT}, or not its path from there"
                     raise ConfigurationError(
                         document.complaint((*keys, "inputs", number), f"{text}: write it there")
