@@ -19,7 +19,7 @@ from pathlib import Path
 from shlex import quote
 
 from workflow.lib.identity import panel_of, run_of, sha256
-from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, runs_of, warnings_of
+from workflow.pipeline.plan import PYTHON, Panel, Plan, runs_of, warnings_of
 from workflow.pipeline.state import (
     Fault,
     State,
@@ -91,7 +91,7 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     """names: of the panels to check; all and the report if there are none. Returns the exit status."""
     requested = [plan[name] for name in names] or [*plan]
     made = [panel for panel in requested if is_made(panel)]
-    unmade: list[Product] = [panel for panel in requested if panel not in made]
+    unmade = [panel for panel in requested if panel not in made]
     plotted = runs_of(made)
     unplotted = {path: run for path, run in runs_of(requested).items() if path not in plotted}
     results, files = faults_of_results(plotted), faults_of_files(made)

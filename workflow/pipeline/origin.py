@@ -15,7 +15,7 @@ from typing import Any
 from workflow.lib.identity import result_identity, sha256
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import FIGURES, REPORT, Plan, Product, runs_of
+from workflow.pipeline.plan import FIGURES, REPORT, Panel, Plan, runs_of
 from workflow.pipeline.quality import QUALITIES, Quality
 from workflow.pipeline.sources import sources_changed
 from workflow.pipeline.state import State, differences
@@ -73,7 +73,7 @@ def explain_result(path: Path) -> int:
     return 0
 
 
-def planned(panel: str, quality: str) -> Product | None:
+def planned(panel: str, quality: str) -> Panel | None:
     """The present product of this name, if there is one."""
     with suppress(ConfigurationError):  # another quality
         plan = Plan(quality)

@@ -3,7 +3,6 @@
 import itertools
 import json
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -71,26 +70,35 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Product(ABC):
-    """Files in figures/QUALITY, with a record of what they are made from. inputs: files and folders that the
-    script uses."""
+class Panel:
+    """A figure: files in figures/QUALITY, with a record of what they are made from. inputs: other files and
+    folders that the script uses; runs: its own; plotted: those of the panels that it uses, then its own;
+    replaced: options of paper.yaml that the quality replaces, as `cells of rare`; file: of its block."""
 
     name: str
     quality: str
     script: str
     inputs: tuple[str, ...] = ()
+    runs: tuple[Run, ...] = ()
+    plotted: tuple[Run, ...] = ()
+    replaced: tuple[str, ...] = ()
+    file: Path = PANELS[0]
 
-    formats: ClassVar[Sequence[str]]
+    formats: ClassVar[Sequence[str]] = FORMATS
+
+    def run(self, name: str) -> Run:
+        """Its own run of this name."""
+        return next(run for run in self.runs if run.name == name)
 
     @property
-    @abstractmethod
+    def study(self) -> bool:
+        """Whether it is of the study, made for the report only."""
+        return self.file == STUDY
+
+    @property
     def parents(self) -> list[str]:
-        """Paths of the results, or of the files of figures, that it is made from. Raises OSError."""
-
-    @property
-    @abstractmethod
-    def command(self) -> str:
-        """Command line that makes it."""
+        """Paths of the results that it is made from. Raises OSError."""
+        return [run.path for run in self.plotted]
 
     @property
     def stem(self) -> str:
@@ -134,32 +142,6 @@ class Product(ABC):
         """Path of what its command prints."""
         return f"build/logs/{self.quality}/{self.name}.log"
 
-
-@dataclass(frozen=True)
-class Panel(Product):
-    """A figure. runs: its own; plotted: those of the panels that it uses, then its own; replaced: options of
-    paper.yaml that the quality replaces, as `cells of rare`; file: of its block."""
-
-    runs: tuple[Run, ...] = ()
-    plotted: tuple[Run, ...] = ()
-    replaced: tuple[str, ...] = ()
-    file: Path = PANELS[0]
-
-    formats: ClassVar[Sequence[str]] = FORMATS
-
-    def run(self, name: str) -> Run:
-        """Its own run of this name."""
-        return next(run for run in self.runs if run.name == name)
-
-    @property
-    def study(self) -> bool:
-        """Whether it is of the study, made for the report only."""
-        return self.file == STUDY
-
-    @property
-    def parents(self) -> list[str]:
-        return [run.path for run in self.plotted]
-
     @property
     def job_path(self) -> str:
         """Path of the job for the command."""
@@ -180,12 +162,13 @@ class Panel(Product):
 
     @property
     def command(self) -> str:
+        """Command line that makes it."""
         return f"{PYTHON} -m workflow.render < '{self.job_path}'"
 
 
 @dataclass(frozen=True)
-class Report(Product):
-    """The report on all panels of the paper and of the study."""
+class Report(Panel):
+    """The report, made from the files of panels."""
 
     panels: tuple[Panel, ...] = ()
 
@@ -248,7 +231,8 @@ class Plan:
         if not STUDY.parent.exists():
             return None
         inputs = ("workflow/study", "workflow/pipeline")
-        return Report(REPORT, self.quality.name, "workflow/study/report.py", inputs, tuple(self.reported))
+        script = "workflow/study/report.py"
+        return Report(REPORT, self.quality.name, script, inputs, panels=tuple(self.reported))
 
     @property
     def reported(self) -> list[Panel]:
