@@ -25,12 +25,11 @@ EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of
 
 @dataclass(frozen=True)
 class Quality:
-    """A file of workflow/config/quality, and the effort of the command line."""
+    """A file of workflow/config/quality, and the effort of the command line, which replaces that of the
+    file. `error` is the relative standard error of the target quantity of every run."""
 
     file: str
-    seed: int | None = None
-    replicas: int | None = None
-    error: float | None = None  # relative standard error of the target quantity of every run
+    effort: dict[str, float]
 
     @classmethod
     def parse(cls, name: str) -> "Quality":
@@ -42,8 +41,6 @@ class Quality:
         for key, _, text in (word.partition("=") for word in given):
             if key not in EFFORTS:
                 raise ConfigurationError(f"{key}={text} is no effort; {suggestion(key, EFFORTS)}")
-            if key in values:
-                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
             pattern, number, allowed = EFFORTS[key]
             if not re.fullmatch(pattern, text):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
@@ -52,12 +49,7 @@ class Quality:
             raise ConfigurationError(
                 "ERROR and REPLICAS both determine the number of replicas; give one of them"
             )
-        return cls(base, **values)
-
-    @property
-    def effort(self) -> dict[str, float]:
-        """What replaces the effort of the file."""
-        return {key: value for key in EFFORTS if (value := getattr(self, key)) is not None}
+        return cls(base, {key: values[key] for key in EFFORTS if key in values})
 
     @property
     def name(self) -> str:
@@ -78,7 +70,9 @@ class Quality:
         if "error" in options:
             options["target-error"] = options.pop("error")
             options |= {} if scale is None else {"target-scale": scale}
-        return options | {"seed": seed_of(names if self.seed is None else f"{names}/{self.seed}")}
+        if "seed" in self.effort:
+            names = f"{names}/{self.effort['seed']}"
+        return options | {"seed": seed_of(names)}
 
 
 def seed_of(text: str) -> int:
