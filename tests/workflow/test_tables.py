@@ -103,7 +103,7 @@ def test_another_series_is_plotted_or_named_and_changes_nothing_else(smoke: Path
     _, table, caption = draw(given)
     figure, with_mine, other_caption = draw([*given[: -len(own)], *mine, *own])
     if isinstance(draw, Plot):
-        assert draw.not_shown([*given[: -len(own)], *mine, *own]) == ["mine"]
+        assert "mine" in draw.not_shown([*given[: -len(own)], *mine, *own])
         assert other_caption == caption
         pd.testing.assert_frame_equal(with_mine, table)
     else:
