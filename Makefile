@@ -8,8 +8,6 @@ unexport BASH_ENV ENV VIRTUAL_ENV
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .SILENT:
-OPTIONS := QUALITY PANEL SEED REPLICAS ERROR JOBS DRY FILE SAMPLE PROFILE ACCOUNT PARTITION
-$(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(error $(name) from the environment has no effect: write make $(MAKECMDGOALS) $(name)=$($(name)), or unset $(name))))
 ENTRY := .venv/bin/python -I -m workflow
 DEV := .venv/bin
 

@@ -67,6 +67,9 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
         raise UsageError(f"{target} is not a target; {suggestion(target, TARGETS)}")
     allowed, every = TARGETS[target], {name for names in TARGETS.values() for name in names}
     given = dict.fromkeys(every, "") | DEFAULTS
+    for name in {*allowed} & os.environ.keys() - {word.partition("=")[0] for word in words}:
+        text = f"{name}={os.environ[name]}"
+        raise UsageError(f"{text} in the environment has no effect; give {text} to make, or unset {name}")
     for word in words:
         name, _, given[name] = word.partition("=")
         if name not in allowed:
@@ -131,9 +134,9 @@ def main() -> int:
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as for make status | head
     target, *words = sys.argv[1:] or ["none"]
     words += words_of_make(os.environ.get("MAKEFLAGS", ""))
-    variables.clean()
     try:
         options = parse(target, words)
+        variables.clean()
         options.file = Path(os.path.abspath(options.file))
         os.chdir(ROOT)
         return run_target(target, options)

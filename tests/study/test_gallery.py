@@ -13,7 +13,6 @@ from tests.workflow.conftest import plain
 from workflow.lib.load import load
 from workflow.pipeline.environment.variables import FIXED
 from workflow.pipeline.plan import PYTHON, Plan, Run
-from workflow.render.record import RELEASE
 from workflow.study.judge import judge_all
 from workflow.study.report import GALLERY, numbers_file, rendered
 from workflow.study.results import Results
@@ -41,7 +40,7 @@ def pixels(picture: Path) -> np.ndarray:
 def test_gallery_is_rendered_from_the_results_of_the_release(tmp_path: Path) -> None:
     """Detected mistakes: a number, a verdict, a caption or a picture edited by hand; scripts, claims or
     configuration changed without the gallery."""
-    plan = Plan(RELEASE)
+    plan = Plan("paper")
     plan.panels = {
         panel.name: replace(panel, plotted=tuple(Released(**vars(run)) for run in panel.plotted))
         for panel in plan.reported

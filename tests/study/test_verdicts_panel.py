@@ -16,12 +16,11 @@ from scipy.stats import t as student
 from tests.python.conftest import ROOT, planned
 from tests.python.test_release import results_of_release
 from workflow.lib import style
-from workflow.render.record import NUMBERS
 from workflow.study import typeset, verdicts
-from workflow.study.judge import Judgement, judge_all, of_release, read_claims
+from workflow.study.judge import Judgement, judge_all, read_claims
 from workflow.study.report import numbers_file
 from workflow.study.results import Results
-from workflow.study.verdict import Band, Estimate, Outcome, Verdict
+from workflow.study.verdict import Band, Estimate, Verdict
 
 LEVEL = 0.01
 HALF = student.isf(LEVEL / 2, 9)  # half of an interval over its standard error
@@ -75,7 +74,7 @@ def plotted(table: pd.DataFrame) -> tuple[Axes, dict[int, list[Any]]]:
 
 
 def test_table_and_picture_have_the_numbers() -> None:
-    table = verdicts.tabulate([*JUDGED, MISSING], {})
+    table = verdicts.tabulate([*JUDGED, MISSING])
     axes, lines = plotted(table)
     assert [*table.verdict] == [verdict for _, _, verdict, *_ in CLAIMS.values()] + ["undecided"]
     for y, (band, one, verdict, position, half) in enumerate(CLAIMS.values()):
@@ -106,7 +105,7 @@ def test_table_and_picture_have_the_numbers() -> None:
 def test_bands_with_one_edge_are_open() -> None:
     """Rectangles from the edge of the strip to that of the frame. Detected mistake: open to the other
     side."""
-    table = verdicts.tabulate(JUDGED, {})
+    table = verdicts.tabulate(JUDGED)
     axes, _ = plotted(table)
     strip, *found = (
         (*sorted((one.get_x(), one.get_x() + one.get_width())), one.get_y() + 0.5) for one in axes.patches
@@ -123,21 +122,10 @@ def test_bands_with_one_edge_are_open() -> None:
 def test_the_band_of_nearly_reproduced_statements_is_wider_and_those_as_meant_are_hollow() -> None:
     """Three times as wide as the acceptance band, about its centre."""
     near = Judgement(row("near", "as meant"), Verdict(Band(0, 1), (number(1.6, 0.01),), LEVEL, Band(-1, 2)))
-    axes, lines = plotted(verdicts.tabulate([near], {}))
+    axes, lines = plotted(verdicts.tabulate([near]))
     _, wide = axes.patches
     assert (wide.get_x(), wide.get_width()) == (-3, 6)
     assert (lines[0][-1].get_marker(), lines[0][-1].get_markerfacecolor()) == ("s", "white")
-
-
-def test_the_verdict_of_the_release_is_a_small_symbol() -> None:
-    release = {("inside", "as printed"): "contradicted"}
-    table = verdicts.tabulate(JUDGED, release)
-    assert [*table.release] == ["contradicted"] + ["not measured"] * (len(JUDGED) - 1)
-    axes, _ = plotted(table)
-    outside = [line for line in axes.get_lines() if [*line.get_xdata()] == [1.03]]
-    (small,) = outside
-    assert (small.get_marker(), *small.get_ydata()) == ("X", 0)
-    assert "release" not in verdicts.tabulate(JUDGED, {})
 
 
 def test_statements_are_typeset() -> None:
@@ -155,11 +143,3 @@ def test_the_panel_has_the_results_of_all_claims() -> None:
     results = [result for result in every if result.path.parent.name in uses]
     mine = [replace(one, path=one.path.with_name(f"mine_{one.path.name}")) for one in results]
     assert numbers_file(judge_all(Results([*mine, *results]))) == numbers_file(judge_all(Results(every)))
-
-
-def test_only_other_qualities_depend_on_the_numbers_of_the_release() -> None:
-    """Detected mistake: the gallery, which writes the numbers, makes its own picture stale."""
-    assert NUMBERS not in planned("paper")["verdicts"].inputs
-    assert NUMBERS in planned("standard")["verdicts"].inputs
-    assert of_release("paper") == {}
-    assert set(of_release("standard").values()) <= {*Outcome}

@@ -69,9 +69,10 @@ def changed_result(result: Result, number: float, options: bool) -> Result:
 
 @cache
 def drawn(folder: Path, panel: str, number: float = 0) -> tuple[Figure, str, list[Result]]:
-    """Figure and caption from changed results. The exact values of `stability` hold for its parameters."""
+    """Figure and caption from changed results. The exact values of `stability` hold for its parameters, and
+    the rings of `momentum` are long enough."""
     style.apply()
-    options = panel != "stability"
+    options = panel not in ("stability", "momentum")
     paths = enumerate(PLAN[panel].parents, 1)
     results = [changed_result(load(folder / path), (number + each) / 5, options) for each, path in paths]
     figure, _, caption = script_of(panel).draw(results)

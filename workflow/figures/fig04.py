@@ -33,9 +33,8 @@ NEAR = 4  # ratio of the largest |p| to that in the panel of the jump
 
 
 def measured(results: Sequence[Result]) -> list[Result]:
-    """The simulations between baths of different temperatures; others are in equilibrium."""
-    simulated = [result for result in results if result.provenance["program"] == "momentum_flux"]
-    return [result for result in simulated if len(set(result.ends("temperature"))) > 1]
+    """The simulations."""
+    return [result for result in results if result.provenance["program"] == "momentum_flux"]
 
 
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
@@ -142,7 +141,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
     return Caption(text, largest=largest)
 
 
-@plots("rare kinetic deterministic equal mean-field mean-field-equal equilibrium-flux equilibrium-profile")
+@plots("rare kinetic deterministic equal mean-field mean-field-equal", apart="nu_left nu_right")
 def draw(results: Sequence[Result]) -> Parts:
     table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]

@@ -49,8 +49,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "series": result.series,
             "particles_per_cell": int(result.parameters["particles_per_cell"]),
             "sigma": float(result.parameters["sigma"]),
-            "mu": float(result["mu"].mean),
-            "mu_error": float(result["mu"].error),
+            **result.columns("mu"),
             "at_momentum": at_momentum(result),
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
@@ -80,7 +79,7 @@ def caption(table: pd.DataFrame) -> str:
     return Caption(text, steep=format_number(STEEP), density=density, **numbers)
 
 
-@plots("paper zero-momentum dense")
+@plots("paper zero-momentum dense", apart="particles_per_cell")
 def draw(results: Sequence[Result]) -> Parts:
     require("the law arccos(σ)/π", results)
     table = tabulate(results)

@@ -94,10 +94,9 @@ def caption(results: Sequence[Result]) -> str:
     return Caption(text, exponents=listed(format_quantity(result["exponent"]) for result in results))
 
 
-@plots("all young")
+@plots("all")
 def draw(results: Sequence[Result]) -> Parts:
-    shown = [result for result in results if result.series != "young"]
-    results = sorted(shown, key=lambda result: result.parameters["sigma"])
+    results = sorted(results, key=lambda result: result.parameters["sigma"])
     tables = [tabulate(result) for result in results]
     figure, (above, *strips) = style.stacked(2.4, *[1] * len(results), height=0.8 + 0.5 * len(results))
     for strip, result, table, mark in zip(strips, results, tables, cycle(MARKS), strict=False):

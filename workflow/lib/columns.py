@@ -18,9 +18,6 @@ from workflow.lib.units import UnitsError, parse
 
 UNITS_LINE = "# units: "
 
-# Units that differ between rows are given as this prefix and the name of the column that contains them.
-BY_ROW = "column "
-
 
 def inherited(results: Sequence[Result]) -> dict[str, str]:
     """Units by name from the result files, without names that have several units."""
@@ -98,10 +95,9 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
             f"units in the script: UNITS = {json.dumps(dict.fromkeys(without, '1'))}"
         )
     units = {name: known[name] for name in numbers}
-    for name, text in units.items():
-        for unit in table[text.removeprefix(BY_ROW)].unique() if text.startswith(BY_ROW) else [text]:
-            try:
-                parse(unit)
-            except UnitsError as error:
-                raise UnitsError(f"column {name}: {error}") from error
+    for name, unit in units.items():
+        try:
+            parse(unit)
+        except UnitsError as error:
+            raise UnitsError(f"column {name}: {error}") from error
     return units

@@ -25,10 +25,12 @@ Draw = Callable[[Sequence[Result]], Parts]
 
 @dataclass(frozen=True)
 class Plot:
-    """draw() of a script that plots series by their names. The caption names others of the panel."""
+    """draw() of a script that plots series by their names. The caption names others of the panel. apart:
+    parameters that the script tells apart, besides those of which the paper has several values."""
 
     function: Draw
     series: tuple[str, ...]
+    apart: tuple[str, ...] = ()
 
     def shown(self, results: Iterable[Result]) -> list[Result]:
         """The results of these series; all if none of them is given, as by a panel of one's own with this
@@ -46,9 +48,10 @@ class Plot:
         return self.function(self.shown(results))
 
 
-def plots(series: str) -> Callable[[Draw], Plot]:
-    """Decorator of draw(), which then takes the results of these series only, named with blanks between."""
-    return lambda draw: Plot(draw, tuple(series.split()))
+def plots(series: str, apart: str = "") -> Callable[[Draw], Plot]:
+    """Decorator of draw(), which then takes the results of these series only. Names of series, and of
+    parameters that are told apart, have blanks between."""
+    return lambda draw: Plot(draw, tuple(series.split()), tuple(apart.split()))
 
 
 class TheoryError(ValueError):

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 from workflow.lib.identity import IDENTITY, named_identity, result_identity, run_of, series_of
 from workflow.lib.suggestion import suggestion
-from workflow.lib.text import format_with_error
 from workflow.lib.units import parse
 
 FORMAT = "lorentz-gas"
@@ -110,22 +109,9 @@ class Result:
     parameter_rules: dict[str, str] = field(default_factory=dict)  # the rule of its options
 
     def __repr__(self) -> str:
-        """Program, options, target quantity, warnings: a line each."""
-        target = self.provenance.get("target_quantity", "")
-        lines = [
-            str(self.path),
-            f"{self.provenance.get('program')} {self.provenance.get('option_words', '')}",
-        ]
-        if target in self.quantities:
-            quantity = self[target]
-            error = quantity.discretisation_error if quantity.count is None else quantity.standard_error
-            text = f" along {', '.join(quantity.axes)}" if quantity.axes else ""
-            if error is not None and not quantity.axes:
-                number = format_with_error(float(quantity.mean), float(error))
-                text = f" = {number} {quantity.units}".removesuffix(" 1")
-            lines.append(target + text)
-        lines.append(f"warnings: {'; '.join(self.warnings) or 'none'}")
-        return "\n".join(lines)
+        """Path, program with options, warnings."""
+        command = f"{self.provenance.get('program')} {self.provenance.get('option_words', '')}"
+        return f"{self.path}\n{command}\nwarnings: {'; '.join(self.warnings) or 'none'}"
 
     def __getitem__(self, name: str) -> Quantity:
         if name not in self.quantities:

@@ -1,19 +1,18 @@
 """The parameters of a panel in one sentence, and what differs from the paper in another.
 
-Parameters of the role `physics` count, and all that the paper states. Expected are its values and those that
-this project chooses (paper.py), where there are neither the default of the program. All others are named.
+Parameters of the role `physics` count, and all that the paper states (paper.py).
 """
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Sequence
+from pathlib import Path
 from typing import Any
 
 from workflow.lib.caption import quoted
 from workflow.lib.figure import TheoryError
-from workflow.lib.identity import panel_of
 from workflow.lib.load import Result
 from workflow.lib.text import format_number, listed
-from workflow.physics.paper import ALL, AXIS, BATHS, CHOICES, PAPER, Stated
+from workflow.physics.paper import AXIS, BATHS, PAPER, Stated
 
 SYMBOLS = {
     "sigma": "σ",
@@ -36,73 +35,60 @@ FEW = 4  # values that are named one by one
 def sentences(results: Sequence[Result], script: str) -> str:
     """What the plotted results of a panel have: `σ = 1/2, N = 11, the paper's baths.`, and what differs: `Not
     the paper's: N = 3 (paper: 11) in `young`.`"""
-    paper, choices = _entry(PAPER, script), _entry(CHOICES, script)
+    paper = stated(script)
+    if not paper and script.startswith("workflow/"):  # not a figure of the paper: labels have the parameters
+        return ""
     common: dict[str, set[Any]] = defaultdict(set)
-    differing: dict[str, dict[str, set[Any]]] = defaultdict(lambda: defaultdict(set))  # by name and series
-    having: dict[str, set[str]] = defaultdict(set)  # series with a parameter
-    several = len({panel_of(result.path) for result in results}) > 1
+    differing: dict[str, dict[str, set[Any]]] = defaultdict(lambda: defaultdict(set))  # by series and name
+    given: set[str] = set()
     for result in results:
-        series = f"{panel_of(result.path)}/{result.series}" if several else result.series
-        general, own = expected(result, script)
-        for name, value in model(result, general).items():
-            having[name].add(series)
-            allowed = [*general.get(name, []), *own.get(name, [])]
-            if not (_agrees(value, allowed) if allowed else _is_default(result, name)):
-                differing[name][series].add(value)
-            elif name not in own and allowed != AXIS:
+        for name, value in model(result, paper).items():
+            given |= set() if _is_default(result, name) else {name}
+            if _agrees(value, paper.get(name, AXIS)):
                 common[name].add(value)
-    listed_names = [name for name in SYMBOLS if name in common and name in {**paper, **choices.get(ALL, {})}]
-    texts = {name: _equation(name, common[name]) for name in listed_names}
-    if {*BATHS} <= texts.keys() and not {*BATHS} & differing.keys():
+            else:
+                differing[result.series][name].add(value)
+    names = [name for name in dict.fromkeys([*SYMBOLS, *common]) if name in common]
+    names = [name for name in names if name in (SYMBOLS if name in paper else given)]
+    texts = {name: _equation(name, common[name]) for name in names if paper.get(name) != AXIS}
+    if {*BATHS} <= texts.keys() & paper.keys():
         texts = {name: text for name, text in texts.items() if name not in BATHS} | {"": "the paper's baths"}
-    plain, unlike = [*texts.values()], list[str]()
-    for name, by_series in differing.items():
-        to = unlike if name in paper else plain
-        to.extend(_differences(name, by_series, having[name], paper.get(name)))
-    text = f"{', '.join(plain)}." if plain else ""
-    return f"{text} Not the paper's: {'; '.join(unlike)}.".lstrip() if unlike else text
+    alike: dict[str, list[str]] = defaultdict(list)  # series by what differs
+    for series, values in differing.items():
+        of_paper = {name: f" (paper: {as_list(paper[name])})" for name in values.keys() - common.keys()}
+        each = [_equation(name, values[name]) + of_paper.get(name, "") for name in values]
+        alike[", ".join(each)].append(series)
+    every = {result.series for result in results}
+    others = [f"{text} in {quoted(some)}" if {*some} != every else text for text, some in alike.items()]
+    sentence = f"{', '.join(texts.values())}." if texts else ""
+    return f"{sentence} Not the paper's: {'; '.join(others)}.".lstrip() if others else sentence
 
 
-def require_one_value(results: Sequence[Result], script: str) -> None:
-    """Raises TheoryError if runs differ in a parameter in which neither the paper's nor this project's do:
-    they would be taken for one another, and theories for those of other parameters."""
-    paper, choices = _entry(PAPER, script), _entry(CHOICES, script)
-    of_all = paper | choices.get(ALL, {})
-    varying = {name for name, stated in of_all.items() if stated is AXIS or len(stated) > 1}
-    varying |= {name for series, stated in choices.items() if series != ALL for name in stated}
-    for name in {name for result in results for name in model(result, {})} - varying:
-        given = [result.parameters for result in results if name in result.parameters]
-        values = {parameters[name] for parameters in given}
-        if name == "cell_length" and not any(isinstance(value, str) for value in values):
-            # One length of all chains is one value, too.
-            values = {f"{one[name] * one['cells']:.9g}" for one in given} if len(values) > 1 else values
-        if paper and len(values) > 1:
-            option = name.replace("_", "-")
-            raise TheoryError(
-                f"{script}.py plots one {option}, and the runs have {listed(sorted(map(str, values)))}: "
-                "make a panel of each"
-            )
+def require_one_value(results: Sequence[Result], script: str, apart: Collection[str]) -> None:
+    """Raises TheoryError if runs differ in a parameter in which neither the paper's do nor those that the
+    script tells apart: they would be taken for one another, and theories for those of other parameters."""
+    paper = stated(script)
+    varying = {name for name, values in paper.items() if values == AXIS or len(values) > 1}
+    for name in SYMBOLS.keys() - varying - {*apart} if paper else ():
+        values = {found[name] for result in results if name in (found := model(result, {}))}
+        if len(values) > 1:
+            runs = f"{name.replace('_', '-')}, and the runs have {listed(sorted(map(str, values)))}"
+            raise TheoryError(f"{Path(script).name} plots one {runs}: make a panel of each")
 
 
-def _entry(table: Mapping[str, Any], *names: str) -> Any:
-    """The entry of the first of the names that has one, or whose figure has."""
-    return next((table[key] for name in names for key in (name, name[:5]) if key in table), {})
+def stated(script: str) -> Stated:
+    """What the paper states for the panel of a script, or for its figure."""
+    name = Path(script).stem
+    return PAPER.get(name) or PAPER.get(name[:5], {})
 
 
-def expected(result: Result, script: str) -> tuple[Stated, Stated]:
-    """Expected values of the parameters: those of all series, and those of the series of a result. Results of
-    another panel have its own."""
-    names = (panel_of(result.path), script)
-    choices = _entry(CHOICES, *names)
-    general = _entry(PAPER, *names) | choices.get(ALL, {})
-    return general, choices.get(result.series, {})
-
-
-def model(result: Result, stated: Stated) -> dict[str, Any]:
-    """The parameters of the model, and others that are stated. Those of a rule are in its name."""
+def model(result: Result, paper: Stated) -> dict[str, Any]:
+    """The parameters of the model, and others that the paper states. Those of a rule are in its name; the
+    continuum has no number of cells."""
     roles = result.parameter_roles
-    names = [name for name in result.parameters if roles.get(name) == "physics" or name in stated]
+    names = [name for name in result.parameters if roles.get(name) == "physics" or name in paper]
     found = {name: result.parameters[name] for name in names if name not in result.parameter_rules}
+    found = {name: value for name, value in found.items() if value != "continuum"}
     return found | ({"rule": rule(result)} if "rule" in found else {})
 
 
@@ -118,22 +104,9 @@ def _is_default(result: Result, name: str) -> bool:
     return f"--{name.replace('_', '-')}" not in result.provenance.get("option_words", "").split()
 
 
-def _agrees(value: Any, stated: Collection[Any]) -> bool:
+def _agrees(value: Any, paper: Collection[Any]) -> bool:
     number = not isinstance(value, str | bool)
-    return stated == AXIS or value in stated or (number and f"{value:.3f}" in stated)
-
-
-def _differences(
-    name: str, by_series: Mapping[str, set[Any]], having: set[str], stated: Any
-) -> Iterable[str]:
-    """A text for all series with the same values."""
-    groups: dict[frozenset[Any], list[str]] = defaultdict(list)
-    for series, values in by_series.items():
-        groups[frozenset(values)].append(series)
-    for same, names in groups.items():
-        paper = f" (paper: {as_list(stated)})" if stated and name != "rule" else ""
-        where = f" in {quoted(names)}" if {*names} != having else ""
-        yield f"{_equation(name, same)}{paper}{where}"
+    return paper == AXIS or value in paper or (number and f"{value:.3f}" in paper)
 
 
 def _equation(name: str, values: Collection[Any]) -> str:

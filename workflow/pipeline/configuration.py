@@ -3,9 +3,7 @@
 Their structure is checked here, by schema.yaml; options are checked by the programs (program.require_valid).
 """
 
-import math
-import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -32,7 +30,6 @@ SCRIPTS = {STUDY: "workflow/study", OWN: "own"}  # folders of their scripts
 ERROR = "error"  # relative error, in place of a number of replicas
 SAFE = YAML(typ="safe", pure=True)
 SCHEMA = SAFE.load((ROOT / "workflow/pipeline/schema.yaml").read_text("utf-8"))
-DECIMAL = re.compile(r"(?<![\w.])[0-9]*\.[0-9]+(?:[eE][-+]?[0-9]+)?")
 
 
 class ConfigurationError(ValueError):
@@ -54,9 +51,7 @@ class Document:
 
     def check(self, kind: str) -> None:
         """Validates the structure, by the schema of this name. Raises ConfigurationError."""
-        complaints = {
-            self.complaint(keys, "is not a finite number: give one") for keys in _not_finite(self.content)
-        }
+        complaints = set()
         schema = SCHEMA[kind] | {"$defs": SCHEMA["$defs"]}
         for error in Draft202012Validator(schema).iter_errors(self.content):
             nearest = best_match([error])  # of alternatives
@@ -94,12 +89,10 @@ class Document:
 
 
 def read(path: Path, kind: str) -> Document:
-    """Reads and validates a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys and rounding
-    errors."""
+    """Reads and validates a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
     name = Document(path).name
     try:
         text = path.read_text("utf-8")
-        refuse_rounding_errors(text, f"{name}:")
         root = SAFE.compose(text)
         _refuse_duplicates(root, name)
         # Merges the mappings of another tree: that of the root keeps its lines.
@@ -130,34 +123,6 @@ def _refuse_duplicates(node: Node | None, where: str) -> None:
     elif isinstance(node, SequenceNode):
         for item in node.value:
             _refuse_duplicates(item, where)
-
-
-def refuse_rounding_errors(text: str, where: str = "") -> None:
-    """Raises ConfigurationError for a number that differs from one of 12 digits by a rounding error, as
-    0.30000000000000004 from a loop: it would name another run, with another seed. where: before the line."""
-    for line, content in enumerate(text.splitlines(), 1):
-        for number in DECIMAL.findall(content.partition("#")[0]):
-            short = f"{float(number):.12g}"
-            if 0 < abs(float(number) - float(short)) < 1e-14 * abs(float(short)):
-                position = f"{where}{line}: " if where else ""
-                raise ConfigurationError(
-                    f"{position}{number} is {short} with a rounding error: write {short}"
-                )
-
-
-def _not_finite(content: Any, keys: Keys = ()) -> Iterator[Keys]:
-    """Paths of .nan and .inf, which no schema refuses."""
-    if isinstance(content, float) and not math.isfinite(content):
-        yield keys
-    members = (
-        content.items()
-        if isinstance(content, dict)
-        else enumerate(content)
-        if isinstance(content, list)
-        else ()
-    )
-    for key, member in members:
-        yield from _not_finite(member, (*keys, key))
 
 
 def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document, Document]:

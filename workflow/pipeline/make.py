@@ -15,7 +15,7 @@ from workflow.lib.identity import panel_of
 from workflow.pipeline.audit import TOO_SHORT
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.lock import lock_products
-from workflow.pipeline.plan import PYTHON, Panel, Plan, Product, runs_of, warnings_of
+from workflow.pipeline.plan import PYTHON, Panel, Plan, runs_of, warnings_of
 from workflow.pipeline.program import compile_programs, require_built, require_valid
 from workflow.pipeline.queue import Queue
 from workflow.pipeline.state import Fault, State, faults_of_files, faults_of_results
@@ -39,7 +39,7 @@ def make(plan: Plan, target: str, names: Sequence[str], options: argparse.Namesp
     """Makes what is missing of a target of DONE; with DRY=yes, lists it. names: of the panels of the target
     `panel`. Returns the exit status. Raises ConfigurationError, BuildError, OSError, CalledProcessError."""
     panels = requested(plan, target, names)
-    products: list[Product] = [*panels, plan.report] if target == "report" and plan.report else [*panels]
+    products = [*panels, plan.report] if target == "report" and plan.report else [*panels]
     runs = runs_of(panels)
     results = missing(runs)
     if options.dry:
@@ -83,7 +83,7 @@ def snakemake(
     targets: Sequence[str],
     quality: str,
     options: argparse.Namespace,
-    products: Sequence[Product],
+    products: Sequence[Panel],
     results: Sequence[str],
 ) -> int:
     """Makes what is missing of the targets. Returns the exit status: 0, 1, or 128 and the number of a signal.
@@ -108,7 +108,7 @@ class Progress:
     """Prints every product that is made meanwhile, and how many results there are, in a terminal on one
     line."""
 
-    def __init__(self, products: Iterable[Product], results: Sequence[str]) -> None:
+    def __init__(self, products: Iterable[Panel], results: Sequence[str]) -> None:
         self.products, self.results = [*products], [*results]  # that are missing
         self._number, self._begin, self._jobs = len(results), time.monotonic(), ""
         self._next = self._begin + SECONDS / 3  # early, as a queue may state why no job can run
@@ -194,7 +194,7 @@ def passing_signals(process: "subprocess.Popen[bytes]") -> Iterator[list[int]]:
             signal.signal(number, handler)
 
 
-def report_failure(products: Sequence[Product]) -> None:
+def report_failure(products: Sequence[Panel]) -> None:
     """Prints a line for each product that is not made, with the reason from the log of a result or its
     own."""
     failed, without = [product for product in products if product.is_incomplete()], []
@@ -222,7 +222,7 @@ def printed_by(log: str) -> str:
     return path.read_text().strip() if path.exists() else ""
 
 
-def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: Sequence[Product]) -> int:
+def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: Sequence[Panel]) -> int:
     """Prints where the products are, without those that were edited by hand, and the number of runs with
     warnings. Returns the exit status: 1 if one was edited."""
     edited = faults_by_edit(panels, products)
@@ -240,7 +240,7 @@ def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: 
     return int(bool(edited))
 
 
-def faults_by_edit(panels: Sequence[Panel], products: Sequence[Product]) -> dict[str, Fault]:
+def faults_by_edit(panels: Sequence[Panel], products: Sequence[Panel]) -> dict[str, Fault]:
     """Products whose files, or results, were edited by hand, by name."""
     faults = {name: fault for name, fault in faults_of_files(products).items() if fault.state is State.EDITED}
     results = faults_of_results(runs_of(panels))

@@ -15,28 +15,19 @@ from typing import Any
 from workflow.lib.identity import result_identity, sha256
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import FIGURES, REPORT, Plan, Product, runs_of
+from workflow.pipeline.plan import FIGURES, REPORT, Panel, Plan, runs_of
 from workflow.pipeline.quality import QUALITIES, Quality
 from workflow.pipeline.sources import sources_changed
-from workflow.pipeline.state import State, differences, options_of
+from workflow.pipeline.state import State, differences
 from workflow.render.record import read_identity_line, read_record, record_name
 
 HDF5 = b"\x89HDF"  # first bytes of a file
-COLUMNS = 120
-NO_BREAK = "\N{NO-BREAK SPACE}"  # between an option and its value
 
 
 def show(text: str, indent: str = "") -> None:
-    """Prints lines of at most COLUMNS, which end neither in a path nor between an option and its value."""
-    lines = textwrap.wrap(
-        text,
-        COLUMNS,
-        initial_indent=indent,
-        subsequent_indent=f"{indent}  ",
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
-    print("\n".join(lines).replace(NO_BREAK, " "))
+    """Prints lines of at most 120 columns, except for longer paths."""
+    look: dict[str, Any] = {"initial_indent": indent, "subsequent_indent": f"{indent}  "}
+    print(textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False, **look))
 
 
 def show_panel(panel: str, quality: str) -> None:
@@ -46,8 +37,7 @@ def show_panel(panel: str, quality: str) -> None:
 
 def show_command(provenance: dict[str, Any], indent: str = "") -> None:
     """Command of the program of a result."""
-    options = [option.replace(" ", NO_BREAK) for option in options_of(provenance["option_words"])]
-    show(" ".join([provenance["program"], *options]), indent)
+    show(f"{provenance['program']} {provenance['option_words']}", indent)
     if sources_changed(provenance):
         show(f"sources of {provenance['program']} differ here", indent)
 
@@ -83,7 +73,7 @@ def explain_result(path: Path) -> int:
     return 0
 
 
-def planned(panel: str, quality: str) -> Product | None:
+def planned(panel: str, quality: str) -> Panel | None:
     """The present product of this name, if there is one."""
     with suppress(ConfigurationError):  # another quality
         plan = Plan(quality)

@@ -2,7 +2,7 @@
 
 import itertools
 import json
-from abc import ABC, abstractmethod
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -24,18 +24,15 @@ from workflow.pipeline.configuration import (
     programs_of,
     require_distinct,
 )
-from workflow.pipeline.polynomial import evaluated
 from workflow.pipeline.quality import DEFAULT_QUALITY, Quality
 from workflow.pipeline.sources import is_sampled, source_hash
 from workflow.render.files import missing
 from workflow.render.record import (
     FORMATS,
-    NUMBERS,
     panel_identity,
     read_record,
     record_name,
     sources_of_panel,
-    states_release,
 )
 
 FIGURES = "figures"
@@ -73,26 +70,35 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Product(ABC):
-    """Files in figures/QUALITY, with a record of what they are made from. inputs: files and folders that the
-    script uses."""
+class Panel:
+    """A figure: files in figures/QUALITY, with a record of what they are made from. inputs: other files and
+    folders that the script uses; runs: its own; plotted: those of the panels that it uses, then its own;
+    replaced: options of paper.yaml that the quality replaces, as `cells of rare`; file: of its block."""
 
     name: str
     quality: str
     script: str
     inputs: tuple[str, ...] = ()
+    runs: tuple[Run, ...] = ()
+    plotted: tuple[Run, ...] = ()
+    replaced: tuple[str, ...] = ()
+    file: Path = PANELS[0]
 
-    formats: ClassVar[Sequence[str]]
+    formats: ClassVar[Sequence[str]] = FORMATS
+
+    def run(self, name: str) -> Run:
+        """Its own run of this name."""
+        return next(run for run in self.runs if run.name == name)
 
     @property
-    @abstractmethod
+    def study(self) -> bool:
+        """Whether it is of the study, made for the report only."""
+        return self.file == STUDY
+
+    @property
     def parents(self) -> list[str]:
-        """Paths of the results, or of the files of figures, that it is made from. Raises OSError."""
-
-    @property
-    @abstractmethod
-    def command(self) -> str:
-        """Command line that makes it."""
+        """Paths of the results that it is made from. Raises OSError."""
+        return [run.path for run in self.plotted]
 
     @property
     def stem(self) -> str:
@@ -136,32 +142,6 @@ class Product(ABC):
         """Path of what its command prints."""
         return f"build/logs/{self.quality}/{self.name}.log"
 
-
-@dataclass(frozen=True)
-class Panel(Product):
-    """A figure. runs: its own; plotted: those of the panels that it uses, then its own; replaced: options of
-    paper.yaml that the quality replaces, as `cells of rare`; file: of its block."""
-
-    runs: tuple[Run, ...] = ()
-    plotted: tuple[Run, ...] = ()
-    replaced: tuple[str, ...] = ()
-    file: Path = PANELS[0]
-
-    formats: ClassVar[Sequence[str]] = FORMATS
-
-    def run(self, name: str) -> Run:
-        """Its own run of this name."""
-        return next(run for run in self.runs if run.name == name)
-
-    @property
-    def study(self) -> bool:
-        """Whether it is of the study, made for the report only."""
-        return self.file == STUDY
-
-    @property
-    def parents(self) -> list[str]:
-        return [run.path for run in self.plotted]
-
     @property
     def job_path(self) -> str:
         """Path of the job for the command."""
@@ -182,12 +162,13 @@ class Panel(Product):
 
     @property
     def command(self) -> str:
+        """Command line that makes it."""
         return f"{PYTHON} -m workflow.render < '{self.job_path}'"
 
 
 @dataclass(frozen=True)
-class Report(Product):
-    """The report on all panels of the paper and of the study."""
+class Report(Panel):
+    """The report, made from the files of panels."""
 
     panels: tuple[Panel, ...] = ()
 
@@ -249,10 +230,9 @@ class Plan:
         """None without the study. Panels of the user are not in it."""
         if not STUDY.parent.exists():
             return None
-        inputs = ["workflow/study", "workflow/pipeline"]
-        inputs += [NUMBERS] if states_release(self.quality.name) else []
+        inputs = ("workflow/study", "workflow/pipeline")
         script = "workflow/study/report.py"
-        return Report(REPORT, self.quality.name, script, tuple(inputs), tuple(self.reported))
+        return Report(REPORT, self.quality.name, script, inputs, panels=tuple(self.reported))
 
     @property
     def reported(self) -> list[Panel]:
@@ -278,13 +258,11 @@ class Plan:
         folders = [folder for folder in (SCRIPTS.get(document.file), FIGURE_SCRIPTS) if folder]
         paths = [f"{folder}/{panel.get('script', name)}.py" for folder in folders]
         script = next((path for path in paths if (ROOT / path).exists()), paths[0])
-        released = states_release(self.quality.name)
-        inputs = tuple(path for path in panel.get("inputs", ()) if path != NUMBERS or released)
         return Panel(
             name,
             self.quality.name,
             script,
-            inputs,
+            tuple(panel.get("inputs", ())),
             runs=tuple(runs),
             replaced=tuple(replaced),
             file=document.file,
@@ -298,7 +276,7 @@ class Plan:
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
             name, one = run_name(series, chosen), options | chosen
-            one = {key: evaluated(value, one.get("cells")) for key, value in one.items()}
+            one = {key: in_numbers(value, one.get("cells")) for key, value in one.items()}
             if is_sampled(program):
                 one = self.quality.with_effort(f"{panel}/{name}", one, scale)
             yield Run(name, series, program, one, f"data/{self.quality.name}/{panel}", where)
@@ -315,11 +293,17 @@ class Plan:
                 document.require(used, with_runs, (*keys, "uses", number), "panel with runs")
             for number, path in enumerate(panel.get("inputs", ())):
                 inside = not Path(path).is_absolute() and ".." not in Path(path).parts
-                if path != NUMBERS and not (inside and (ROOT / path).exists()):
+                if not (inside and (ROOT / path).exists()):
                     text = f"{path} is not a file or folder below {ROOT}, or not its path from there"
                     raise ConfigurationError(
                         document.complaint((*keys, "inputs", number), f"{text}: write it there")
                     )
+
+
+def in_numbers(value: object, cells: object) -> object:
+    """A multiple of the number of cells, as 0.05N, as a number; other values of options as they are."""
+    multiple = re.fullmatch(r"([0-9.]+)N", str(value))
+    return float(f"{float(multiple[1]) * cells:.12g}") if multiple and isinstance(cells, int) else value
 
 
 def runs_of(panels: Iterable[Panel]) -> dict[str, Run]:

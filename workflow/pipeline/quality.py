@@ -12,55 +12,44 @@ from workflow.pipeline.configuration import (
     ConfigurationError,
     Options,
     merge_efforts,
-    refuse_rounding_errors,
 )
-from workflow.pipeline.polynomial import NUMBER
 
 QUALITIES = [path.stem for path in sorted((PANELS[0].parent / "quality").glob("*.yaml"))]
 DEFAULT_QUALITY = "standard"
 EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
-    "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
-    "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
-    "error": (NUMBER, float, "a number greater than 0 and less than 1, as 0.02 for 2 %"),
+    "seed": ("[0-9]+", int, "a whole number"),
+    "replicas": ("[1-9][0-9]*", int, "a whole number, at least 1"),
+    "error": (r"0?\.0*[1-9][0-9]*", float, "a number less than 1, as 0.02 for 2 %"),
 }
 
 
 @dataclass(frozen=True)
 class Quality:
-    """A file of workflow/config/quality, and the effort of the command line."""
+    """A file of workflow/config/quality, and the effort of the command line, which replaces that of the
+    file. `error` is the relative standard error of the target quantity of every run."""
 
     file: str
-    seed: int | None = None
-    replicas: int | None = None
-    error: float | None = None  # relative standard error of the target quantity of every run
+    effort: dict[str, float]
 
     @classmethod
     def parse(cls, name: str) -> "Quality":
         """Parses the name of the folder. Raises ConfigurationError."""
-        base, *given = name.split("_")
+        base, *given = re.split("_(?=[^_]*=)", name)
         if base not in QUALITIES:
             raise ConfigurationError(f"{base} is not a quality; choose one of {', '.join(QUALITIES)}")
         values: dict[str, Any] = {}
         for key, _, text in (word.partition("=") for word in given):
             if key not in EFFORTS:
                 raise ConfigurationError(f"{key}={text} is no effort; {suggestion(key, EFFORTS)}")
-            if key in values:
-                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
             pattern, number, allowed = EFFORTS[key]
-            if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
+            if not re.fullmatch(pattern, text):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
-            refuse_rounding_errors(text)
             values[key] = number(text)
         if "error" in values and "replicas" in values:
             raise ConfigurationError(
                 "ERROR and REPLICAS both determine the number of replicas; give one of them"
             )
-        return cls(base, **values)
-
-    @property
-    def effort(self) -> dict[str, float]:
-        """What replaces the effort of the file."""
-        return {key: value for key in EFFORTS if (value := getattr(self, key)) is not None}
+        return cls(base, {key: values[key] for key in EFFORTS if key in values})
 
     @property
     def name(self) -> str:
@@ -81,7 +70,9 @@ class Quality:
         if "error" in options:
             options["target-error"] = options.pop("error")
             options |= {} if scale is None else {"target-scale": scale}
-        return options | {"seed": seed_of(names if self.seed is None else f"{names}/{self.seed}")}
+        if "seed" in self.effort:
+            names = f"{names}/{self.effort['seed']}"
+        return options | {"seed": seed_of(names)}
 
 
 def seed_of(text: str) -> int:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from workflow.lib.identity import DIGITS, sha256, siblings
 from workflow.lib.load import FormatError, load_provenance
-from workflow.pipeline.plan import FIGURES, Product, Run
+from workflow.pipeline.plan import FIGURES, Panel, Run
 from workflow.pipeline.sources import sources_changed
 from workflow.render.files import format_os_error
 from workflow.render.record import read_record, record_name
@@ -50,7 +50,7 @@ def faults_of_results(runs: Mapping[str, Run]) -> dict[str, Fault]:
     return {path: fault for path, run in runs.items() if (fault := fault_of_result(path, run))}
 
 
-def fault_of_files(product: Product) -> Fault | None:
+def fault_of_files(product: Panel) -> Fault | None:
     """Fault of the files of a panel or of the report; the first one represents all."""
     record, path = product.record, product.record_path
     if not record and Path(path).exists():
@@ -69,12 +69,12 @@ def fault_of_files(product: Product) -> Fault | None:
     return None
 
 
-def faults_of_files(products: Iterable[Product]) -> dict[str, Fault]:
+def faults_of_files(products: Iterable[Panel]) -> dict[str, Fault]:
     """Faults by the names of panels."""
     return {product.name: fault for product in products if (fault := fault_of_files(product))}
 
 
-def is_made(product: Product) -> bool:
+def is_made(product: Panel) -> bool:
     """Whether there is a file of it, also of a former one."""
     folder, record = Path(FIGURES, product.quality), record_name(product.name, DIGITS * "[0-9a-f]")
     return Path(f"{product.stem}.{product.formats[0]}").exists() or any(folder.glob(record))
@@ -97,7 +97,7 @@ def options_of(words: str) -> list[str]:
     return [f"--{option.strip()}" for option in words.split("--")[1:]]
 
 
-def differences(product: Product, former: Mapping[str, Any]) -> str:
+def differences(product: Panel, former: Mapping[str, Any]) -> str:
     """What differs from a former record: sources by their paths; results or figures."""
     now, was = product.sources, former.get("sources", {})
     differing = [path for path in {**now, **was} if now.get(path) != was.get(path)]

@@ -55,14 +55,14 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     shown, others = loaded, []
     if isinstance(module.draw, Plot):
         shown, others = module.draw.shown(loaded), module.draw.not_shown(loaded)
-        setting.require_one_value(shown, Path(script).stem)
+        setting.require_one_value(shown, script, module.draw.apart)
     style.apply()
     figure, table, caption = module.draw(loaded)
     units = getattr(module, "UNITS", {})
     errors = {f"{column}_error": text for column, text in units.items()}
     csv = as_csv(table, inherited(loaded) | errors | units)
     added = [f"Not shown: {quoted(others)}."] if others else []
-    added += [*outside(figure), *warnings(shown), setting.sentences(shown, Path(script).stem)]
+    added += [*outside(figure), *warnings(shown), setting.sentences(shown, script)]
     whole = " ".join(" ".join([caption, *added]).split())
     return figure, csv, Text(module.TITLE, whole, getattr(caption, "numbers", {}))
 

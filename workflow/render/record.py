@@ -16,8 +16,6 @@ from workflow.lib.identity import IDENTITY, ROOT, identity_of, sha256
 
 FORMATS = ("pdf", "png", "svg", "csv")  # of the files of a panel
 SHARED = ("workflow/lib", "workflow/physics", "workflow/render", "uv.lock")  # on which all figures depend
-RELEASE = "paper"  # the quality of the release
-NUMBERS = "docs/gallery/numbers.csv"  # its numbers, which other qualities state
 IDENTITY_LINE = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
 
 
@@ -66,8 +64,3 @@ def content_hash(path: str, root: Path = ROOT) -> str:
     kept = [name for name in names if not name.endswith("~") and not re.search(r"/\.|__pycache__", name)]
     lines = [f"{name} {sha256((root / name).read_bytes())}\n" for name in kept]
     return sha256("".join(lines).encode())
-
-
-def states_release(quality: str, root: Path = ROOT) -> bool:
-    """Whether figures and report of a quality also state the verdicts of the release."""
-    return quality != RELEASE and (root / NUMBERS).exists()

@@ -11,7 +11,6 @@ import pandas as pd
 
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
-from workflow.render.record import NUMBERS, states_release
 from workflow.study.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.study.results import Claim, MissingError, Results
 from workflow.study.verdict import Band, Outcome, Verdict, level_of_each
@@ -97,11 +96,3 @@ def changed(judgements: Sequence[Judgement], factor: float) -> list[tuple[Judgem
         verdict = replace(one.verdict, band=band, nearly=nearly.wider(factor) if nearly else None)
         others.append((one, verdict.outcome))
     return [(one, outcome) for one, outcome in others if outcome is not one.verdict.outcome]
-
-
-def of_release(quality: str, root: Path = ROOT) -> dict[tuple[str, str], str]:
-    """Verdicts of the release by numbers and kind, for other qualities; empty without a release."""
-    if not states_release(quality, root):
-        return {}
-    table = pd.read_csv(root / NUMBERS).drop_duplicates(["claim", "kind"])
-    return dict(zip(zip(table.claim, table.kind, strict=True), table.claim_verdict, strict=True))

@@ -4,11 +4,10 @@ docs/gallery/README.md with pictures beside it and all numbers in numbers.csv. E
 
 import argparse
 import base64
-import math
 import re
 import sys
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +20,10 @@ from workflow.lib.load import FormatError, cpu_seconds, load
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import Panel, Plan, runs_of
 from workflow.render.files import format_os_error, write_atomically
-from workflow.render.record import NUMBERS, identity_line, read_record
+from workflow.render.record import identity_line, read_record
 from workflow.render.save import commit, write_product
 from workflow.study import typeset
-from workflow.study.judge import PRINTED, Judgement, changed, judge_all, label, of_release
+from workflow.study.judge import PRINTED, Judgement, changed, judge_all, label
 from workflow.study.results import Results
 from workflow.study.verdict import Outcome
 
@@ -48,8 +47,7 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
     )
     environment.filters |= {"typeset": typeset.typeset, "markdown": typeset.markdown}
     quality = plan.quality
-    found = {} if release else of_release(quality.name, root)
-    rows = [shown(judgement, found) for judgement in judgements]
+    rows = [*map(shown, judgements)]
     figures = defaultdict(list)
     for row in sorted(rows, key=lambda row: str(row["panel"][:5])):  # fig10 after fig09
         figures[typeset.figure_of(row["panel"])].append(row)
@@ -59,7 +57,6 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
         counts={outcome.name: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
         rows=rows,
         figures=figures,
-        named={row["name"]: row for row in rows},
         panels=[context(panel, root, release=release) for panel in plan.reported],
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
@@ -95,15 +92,12 @@ def inches(picture: bytes) -> float:
     return float(found[1]) / 72
 
 
-def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[str, Any]:
-    """A statement with its verdict, for the template. least, most: its smallest and largest number; found:
-    verdicts of the release, one of which is `standing` where this one is undecided."""
+def shown(judgement: Judgement) -> dict[str, Any]:
+    """A statement with its verdict, for the template."""
     row, verdict = judgement.row, judgement.verdict
     first, *others = row["numbers"].lower().split()
     printed = row["kind"] == PRINTED
     anchor = first if printed else f"{first}-{row['kind'].replace(' ', '-')}"
-    release = found.get((row["numbers"], row["kind"])) if verdict.outcome is Outcome.UNDECIDED else None
-    numbers = sorted((one for one in verdict.numbers if math.isfinite(one.value)), key=lambda one: one.value)
     listed = verdict.numbers if len(verdict.numbers) <= MOST_NUMBERS else [verdict.decisive]
     return dict(row) | {
         "anchor": anchor,
@@ -113,8 +107,6 @@ def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[st
         "outcome": verdict.outcome,
         "style": verdict.outcome.name.lower(),
         "sign": SIGNS[verdict.outcome],
-        "release": release,
-        "standing": release or verdict.outcome.value,
         "band": typeset.acceptance(verdict.band),
         "nearly": typeset.acceptance(verdict.nearly) if verdict.nearly else "",
         "value": typeset.value(verdict.decisive) if verdict.numbers else "not measured",
@@ -123,9 +115,7 @@ def shown(judgement: Judgement, found: Mapping[tuple[str, str], str]) -> dict[st
             (number.label, typeset.value(number), verdict.outcome_of(number).value) for number in listed
         ],
         "omitted": len(verdict.numbers) - len(listed),
-        "outside": sum(verdict.outcome_of(number) is Outcome.CONTRADICTED for number in numbers),
-        "least": typeset.value(numbers[0]) if numbers else "",
-        "most": typeset.value(numbers[-1]) if numbers else "",
+        "outside": sum(verdict.outcome_of(number) is Outcome.CONTRADICTED for number in verdict.numbers),
         "missing": judgement.missing,
     }
 
@@ -170,7 +160,9 @@ def write(quality: str, root: Path = ROOT, *, gallery: bool = False) -> None:
         folder / f"{panel.name}.png": (root / f"{panel.stem}.png").read_bytes() for panel in plan.reported
     }
     page = rendered(judgements, plan, root, release=True)
-    write_atomically(pictures | {folder / "README.md": page, root / NUMBERS: numbers_file(judgements)})
+    write_atomically(
+        pictures | {folder / "README.md": page, folder / "numbers.csv": numbers_file(judgements)}
+    )
     for former in {*folder.glob("*.png")} - pictures.keys():
         former.unlink()
 

@@ -32,8 +32,8 @@ def chain(result: Result) -> Chain:
     least = 2 * reach / length
     if result.parameters["cells"] < least:
         raise ValueError(
-            f"{result.series}: sound travels around the ring until t = {time:g}; choose at least {ceil(least)} "
-            "cells, or earlier times"
+            f"{result.series}: sound travels around the ring until t = {time:g}; choose at least "
+            f"{ceil(least)} cells, or earlier times"
         )
     return gas
 

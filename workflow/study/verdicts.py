@@ -5,7 +5,7 @@ A band with one edge has no width: the unit is then half the interval.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from workflow.lib import style
 from workflow.lib.figure import Parts
 from workflow.lib.load import Result
-from workflow.study.judge import MEANT, PRINTED, Judgement, judge_all, label, of_release
+from workflow.study.judge import MEANT, PRINTED, Judgement, judge_all, label
 from workflow.study.results import Results
 from workflow.study.typeset import figure_of, mathtext
 from workflow.study.verdict import Band, Outcome
@@ -50,9 +50,8 @@ def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
     return edge - side * unit, unit
 
 
-def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], str]) -> pd.DataFrame:
-    """One row per statement, in the order of the figures; low, high: ends of the interval; release:
-    verdicts of the release, by numbers and kind."""
+def tabulate(judgements: Sequence[Judgement]) -> pd.DataFrame:
+    """One row per statement, in the order of the figures; low, high: ends of the interval."""
     rows = []
     for row, verdict in ((one.row, one.verdict) for one in judgements):
         number, band = verdict.decisive if verdict.numbers else None, verdict.band
@@ -61,15 +60,14 @@ def tabulate(judgements: Sequence[Judgement], release: Mapping[tuple[str, str], 
         ends = number.interval(verdict.level / len(verdict.numbers)) if number else (math.nan, math.nan)
         origin, unit = scale_of(band, value, (ends[1] - ends[0]) / 2)
         position, low, high = ((one - origin) / unit for one in (value, *ends))
-        key = row["numbers"], row["kind"]
-        columns: dict[str, Any] = {"claim": key[0], "kind": key[1], "panel": row["panel"]}
+        columns: dict[str, Any] = {"claim": row["numbers"], "kind": row["kind"], "panel": row["panel"]}
         columns |= {"statement": label(row), "verdict": verdict.outcome.value}
         columns |= {"quantity": number.label or "value" if number else NOT_MEASURED, "value": value}
         columns |= {"error": error, "systematic": systematic, "low": ends[0], "high": ends[1]}
         for name, edges in (("band", band), ("nearly", verdict.nearly)):
             columns |= {f"{name}_{end}": getattr(edges, end, math.nan) for end in ("low", "high")}
         columns |= {"position": position, "position_low": low, "position_high": high}
-        rows.append(columns | ({"release": release.get(key, NOT_MEASURED)} if release else {}))
+        rows.append(columns)
     return pd.DataFrame(rows).sort_values(
         "panel", key=lambda panel: panel.str[:5], kind="stable", ignore_index=True
     )
@@ -97,9 +95,6 @@ def draw_row(axes: Axes, y: int, row: pd.Series) -> None:
     if math.isfinite(row.nearly_low):
         width = (row.nearly_high - row.nearly_low) / (row.band_high - row.band_low)
         axes.barh(y, 2 * min(width, LIMIT), left=-min(width, LIMIT), height=1, **style.WINDOW | NEARLY)
-    if "release" in row and row.release != NOT_MEASURED:
-        small = look_of(row.release, row.kind) | {"markersize": 2.5, "clip_on": False}
-        axes.plot([1.03], [y], transform=axes.get_yaxis_transform(), **small)
     if row.quantity == NOT_MEASURED:
         axes.text(0, y, NOT_MEASURED, size=7, ha="center", va="center", color="0.45")
         return
@@ -134,16 +129,14 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 
 def caption(table: pd.DataFrame) -> str:
     hold, nearly, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
-    text = f"""
+    return f"""
         Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
         {nearly} nearly, {fail} do not, {undecided} are open. Bars: joint 95 %
         confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly."""
-    return f"{text} Small symbols: verdicts of quality paper." if "release" in table else text
 
 
 def draw(results: Sequence[Result]) -> Parts:
-    quality = results[0].path.parent.parent.name
-    return plotted(tabulate(judge_all(Results(results)), of_release(quality)))
+    return plotted(tabulate(judge_all(Results(results))))
 
 
 def plotted(table: pd.DataFrame) -> Parts:
@@ -154,9 +147,6 @@ def plotted(table: pd.DataFrame) -> Parts:
     for y, row in table.iterrows():
         draw_row(axes, y, row)
     label_rows(axes, table)
-    if "release" in table:
-        frame = axes.get_yaxis_transform()
-        axes.text(1.06, -1, "release", transform=frame, size=6.5, ha="right", va="center")
     axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
     axes.set_xlabel(
         "acceptance band: −1 to 1; if it has one edge:\ndistance from it in half intervals", size=8
