@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/scatterers.hpp"
+#include "model/open_chain.hpp"
 
 namespace lorentz {
 
@@ -23,10 +23,10 @@ namespace lorentz {
 /// rules the control is valid, but may reduce the variance less.
 class ScatteringControl {
  public:
-  explicit ScatteringControl(const Scatterers& chain)
+  explicit ScatteringControl(const OpenChain& chain)
       : sigma_(chain.sigma),
         c_(std::sqrt((1 - chain.sigma) * (1 + chain.sigma))),
-        probability_(chain.scattering_probability()) {}
+        probability_(chain.deterministic() ? 1 : chain.gamma / chain.cells) {}
 
   /// Registers a particle of velocity u that arrives at a time in the window, and is scattered or
   /// not. Ignored for gamma = N, where the control is 0.
