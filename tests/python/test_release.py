@@ -50,8 +50,8 @@ def result(run: str) -> Result:
 
 
 def fingerprint(values: ArrayLike) -> str:
-    """Hash of texts; of numbers their count, and weighted sums of their signs and logarithms, which a relative
-    change of one number changes by as much. What is 0 to rounding differs between processors."""
+    """Hash of texts; of numbers their count, and weighted sums of their signs and logarithms, which a
+    relative change of one number changes by as much. What is 0 to rounding differs between processors."""
     cells = np.asarray(values)
     if cells.dtype.kind != "f":
         return sha256("\n".join(map(str, cells)).encode())[:8]
