@@ -86,17 +86,17 @@ def draw_noise(axes: Axes, control: pd.DataFrame) -> None:
 
 
 def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
-    """Plots β - 1 of every gas."""
+    """Plots β of every gas."""
     elastic = elastic.dropna(subset="middle")
     for (_, gas), look in zip(elastic.groupby(rings.STATE), cycle(GASES), strict=False):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
         label = rf"$\zeta = {zeta}$, $M = {mass}$"
-        exponent, error = gas.local_exponent - 1, gas.local_exponent_error
+        exponent, error = gas.local_exponent, gas.local_exponent_error
         axes.errorbar(gas.middle, exponent, error, label=label, **style.points(*look) | LINE)
-    style.guide_at(axes, 0, "0")
-    style.guide_at(axes, 1 / 3, "1/3")
-    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta - 1$")
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 0.08))  # above the guide at 0
+    style.guide_at(axes, 1, "1")
+    style.guide_at(axes, 4 / 3, "4/3")
+    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta$")
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 0.08))  # above the guide at 1
 
 
 def caption(sizes: pd.DataFrame) -> str:
