@@ -1,5 +1,8 @@
 """Whether the points of a figure are in the frames of their axes."""
 
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,7 +16,7 @@ ROUNDING = 1e-9  # relative to the range of the axis
 def outside(figure: Figure) -> list[str]:
     """A sentence on the points outside of the frames, if there are such. Raises NoValueError if no point of
     the figure is finite."""
-    frames = figure.findobj(Axes)  # with insets
+    frames = _with_insets(figure.axes)
     points = [each for each in map(_points, frames) if len(each)]
     if points and not np.isfinite(np.concatenate(points)).all(axis=1).any():
         raise NoValueError(
@@ -22,6 +25,12 @@ def outside(figure: Figure) -> list[str]:
     number = sum(map(_outside, frames))
     text = "1 point is outside the frame." if number == 1 else f"{number} points are outside the frames."
     return [text] if number else []
+
+
+def _with_insets(frames: Iterable[Any]) -> list[Axes]:
+    """The axes, with their insets, which are not in figure.axes, and second axes that have points."""
+    axes = [one for one in frames if isinstance(one, Axes)]
+    return [*axes, *(child for one in axes for child in _with_insets(one.child_axes))]
 
 
 def _points(axes: Axes) -> np.ndarray:
