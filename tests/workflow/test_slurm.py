@@ -31,11 +31,10 @@ SelectTypeParameters=CR_Core_Memory
 SchedulerParameters=batch_sched_delay=0,sched_interval=2
 MinJobAge={age}
 EnforcePartLimits={enforced}
-NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=8000
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory={memory}
 PartitionName=test Nodes=ALL Default=YES MaxTime={minutes}
 """
-FILES_OF_MUNGE = ("key-file", "socket", "pid-file", "log-file", "seed-file")
-USUAL = {"age": 3600, "enforced": "NO", "minutes": "INFINITE"}
+USUAL = {"age": 3600, "enforced": "NO", "memory": 8000, "minutes": "INFINITE"}
 PANEL = ("env", "--default-signal=INT", ".venv/bin/python", "-m", "workflow", "panel", "QUALITY=smoke")
 Configure = Callable[..., None]
 
@@ -48,26 +47,34 @@ def slurm(*words: str) -> list[str]:
 @pytest.fixture(scope="module")
 def configure() -> Iterator[Configure]:
     """A function that changes the configuration of a Slurm on the loopback interface."""
-    daemons, null = list[subprocess.Popen[bytes]](), subprocess.DEVNULL
+    daemons = list[subprocess.Popen[bytes]]()
 
     def configure(**changes: str | int) -> None:
         (folder / "slurm.conf").write_text(CONFIGURATION.format(folder=folder, **USUAL | changes))
         slurm("scontrol", "reconfigure")
 
     def start(*words: str, user: str = "root") -> None:
-        daemons.append(subprocess.Popen(words, stdout=null, stderr=null, user=user, start_new_session=True))
+        with (folder / f"{words[0]}.out").open("w") as log:
+            daemons.append(subprocess.Popen(words, stdout=log, stderr=log, user=user, start_new_session=True))
 
-    # In /tmp, as the path of a socket has to be short.
-    with tempfile.TemporaryDirectory(prefix="slurm.") as name:
+    with tempfile.TemporaryDirectory(
+        prefix="slurm."
+    ) as name:  # in /tmp: the path of a socket has to be short
         folder = Path(name)
         folder.chmod(0o755)
         (folder / "key-file").write_bytes(secrets.token_bytes(1024))
         (folder / "key-file").chmod(0o400)
         for path in (folder / "key-file", folder):
             shutil.chown(path, "munge")
-        files = [f"--{file}={folder / file}" for file in FILES_OF_MUNGE]
+        files = ("key-file", "socket", "pid-file", "log-file", "seed-file")
         try:
-            start("munged", "--foreground", "--force", *files, user="munge")
+            start(
+                "munged",
+                "--foreground",
+                "--force",
+                *(f"--{file}={folder / file}" for file in files),
+                user="munge",
+            )
             soon((folder / "socket").exists)
             INSTALLED.unlink(missing_ok=True)  # a link without a target, left by a killed test
             INSTALLED.symlink_to(folder / "slurm.conf")
@@ -109,18 +116,22 @@ def test_four_short_runs_are_one_job(configure: Configure, project: Project, mad
     assert len({*slurm("squeue", "--noheader", "--states=all", "--format=%i")} - {*before}) <= 1
 
 
-def test_refused_and_pending_jobs_have_a_reason(configure: Configure, project: Project) -> None:
-    configure(enforced="ALL", minutes=1)
+@pytest.mark.parametrize("limit", [{"minutes": 1}, {"memory": 500}])
+def test_refused_and_pending_jobs_have_a_reason(
+    configure: Configure, project: Project, limit: dict[str, int]
+) -> None:
+    configure(enforced="ALL", **limit)
     making = make(project, "PANEL=energy")
-    assert "time limit" in making.communicate(timeout=60)[0]
+    assert ("time limit" if "minutes" in limit else "Memory") in making.communicate(timeout=60)[0]
     assert making.returncode == 1
-    configure(minutes=1)
-    making = make(project, "PANEL=energy")
-    assert making.stdout
-    assert "PartitionTimeLimit" in making.stdout.readline()
-    making.terminate()
-    assert making.wait(10) == 128 + signal.SIGTERM
-    assert not slurm("squeue", "--noheader")
+    if "minutes" in limit:
+        configure(**limit)
+        making = make(project, "PANEL=energy")
+        assert making.stdout
+        assert "PartitionTimeLimit" in making.stdout.readline()
+        making.terminate()
+        assert making.wait(10) == 128 + signal.SIGTERM
+        assert not slurm("squeue", "--noheader")
 
 
 @pytest.mark.parametrize(("number", "sent"), [(50, signal.SIGTERM), (2, signal.SIGINT)])
@@ -153,17 +164,20 @@ def test_forgotten_jobs_are_lost(
 ) -> None:
     """But not those that ended a short time ago, nor while Snakemake prints or squeue fails."""
     configure()
-    log = tmp_path / "log"
 
-    def is_lost(name: str, printed: str = "") -> bool:
-        queue = Queue(log)
-        for look in range(3):
-            log.write_text(f"SLURM run ID: {name}\n{look * printed}")
+    def is_lost(name: str = "absent", printed: str = "") -> bool:
+        (tmp_path / "log").write_text(f"SLURM run ID: {name}\n")
+        queue = Queue(tmp_path / "log")
+        for _ in range(3):
+            with (tmp_path / "log").open("a") as log:
+                log.write(printed)
             queue.look()
         return queue.is_lost
 
+    assert is_lost()
+    assert not is_lost(printed="rendered")
     slurm("sbatch", "--job-name=present", "--output=/dev/null", "--wrap=true")
     soon(lambda: not slurm("squeue", "--noheader"))
-    assert [is_lost("absent"), is_lost("absent", "rendered"), is_lost("present")] == [True, False, False]
+    assert not is_lost("present")
     monkeypatch.setenv("SLURM_CONF", "/absent")
-    assert not is_lost("absent")
+    assert not is_lost()
