@@ -8,8 +8,10 @@ results are read by name, whatever sources and configuration are now. After an i
 
 import io
 import json
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -24,7 +26,8 @@ from workflow.pipeline.plan import Plan
 from workflow.render.__main__ import draw
 
 RECORD = Path(__file__).with_name("release.json")
-Panel = dict[str, str]  # caption, and fingerprints of lines, of error bars and of every column
+Fingerprint = str | list[float]
+Panel = dict[str, Any]  # caption, and fingerprints of lines, of error bars and of every column
 
 
 @cache
@@ -49,37 +52,45 @@ def result(run: str) -> Result:
     return stored(path)
 
 
-def fingerprint(values: ArrayLike) -> str:
+def fingerprint(values: ArrayLike) -> Fingerprint:
     """Hash of texts; of numbers their count, and weighted sums of their signs and logarithms, which a
     relative change of one number changes by as much. What is 0 to rounding differs between processors."""
     cells = np.asarray(values)
     if cells.dtype.kind != "f":
         return sha256("\n".join(map(str, cells)).encode())[:8]
-    cells = np.where(np.abs(cells) < 1e-9 * np.nanmax(np.abs(cells), initial=0), 0, cells)
-    weights = np.random.default_rng(1).uniform(1, 2, cells.size)
-    defined = np.isfinite(cells) & (cells != 0)
-    sums = [np.sum((weights * each)[defined]) for each in (np.sign(cells), np.log(np.abs(cells) + ~defined))]
-    return f"{cells.size} {defined.sum()} {sums[0]:.7f} {sums[1]:.7f}"
+    negligible = np.abs(cells) < 1e-11 * np.nanmax(np.abs(cells), initial=0)
+    defined = np.isfinite(cells) & (cells != 0) & ~negligible
+    weights = np.random.default_rng(1).uniform(1, 2, cells.size)[defined]
+    sums = weights @ np.sign(cells[defined]), weights @ np.log(np.abs(cells[defined]))
+    return [cells.size, int(defined.sum()), *(round(float(each), 8) for each in sums)]
 
 
-def agree(now: str, recorded: str) -> bool:
+def points(curves: Iterable[np.ndarray]) -> list[Fingerprint]:
+    """Of the coordinates x and y of all curves of a frame, for which 0 to rounding is relative to the
+    largest."""
+    both = np.concatenate([np.empty((0, 2)), *curves])
+    return [fingerprint(coordinate) for coordinate in both.T]
+
+
+def agree(now: Any, recorded: Any) -> bool:
     """Equal texts, or sums that differ by less than a relative change of 1e-6 of one number."""
-    if now == recorded or len(now.split()) != 4 or len(recorded.split()) != 4:
-        return now == recorded
-    return np.allclose([*map(float, now.split())], [*map(float, recorded.split())], rtol=0, atol=1e-6)
+    if isinstance(now, list) and isinstance(recorded, list) and len(now) == len(recorded):
+        return all(map(agree, now, recorded))
+    return now == recorded or (isinstance(now, float) and abs(now - recorded) < 1e-6)
 
 
 def drawn(script: str, runs: list[str]) -> Panel:
     figure, text, words = draw(script, [result(run) for run in runs])
     plt.close(figure)
     table = pd.read_csv(io.StringIO(text), comment="#")
-    plotted = [line.get_xydata().ravel() for axes in figure.axes for line in axes.get_lines()]
-    collections = [one for axes in figure.axes for one in axes.collections]
-    bars = [path.vertices.ravel() for one in collections for path in one.get_paths()]
+    lines = [points(line.get_xydata() for line in axes.get_lines()) for axes in figure.axes]
+    bars = [
+        points(path.vertices for one in axes.collections for path in one.get_paths()) for axes in figure.axes
+    ]
     return {
         "caption": words.caption,
-        "lines": fingerprint(np.concatenate([[], *plotted])),
-        "error bars and bands": fingerprint(np.concatenate([[], *bars])),
+        "lines": lines,
+        "error bars and bands": bars,
         **{name: fingerprint(cells) for name, cells in table.items()},
     }
 
@@ -92,7 +103,7 @@ def test_every_panel_of_the_release_is_as_recorded() -> None:
         if (ROOT / script).exists():
             now = drawn(script, runs)
             names = now.keys() | expected.keys()
-            changed = {name for name in names if not agree(now.get(name, ""), expected.get(name, ""))}
+            changed = {name for name in names if not agree(now.get(name), expected.get(name))}
             found |= {f"{panel}: {name}": now.get(name) for name in changed}
     assert found == {}, "after an intended change: .venv/bin/python -m tests.python.test_release"
 
