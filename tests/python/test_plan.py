@@ -39,6 +39,7 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
     assert Quality.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
     assert Quality.parse("smoke_error=0.50_seed=7").name == "smoke_seed=7_error=0.5"  # one folder
+    assert Quality.parse("smoke_error=5e-3").effort == {"error": 0.005}
     quality = Quality.parse("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
     completed = quality.with_effort("fig05/paper", {"replicas": 500, "sigma": 0}, 200)
@@ -98,6 +99,7 @@ def test_effort_of_quality_panel_and_series(
         ("smoke_seed=-1", "SEED=-1 is invalid"),
         ("smoke_error=2%", "ERROR=2% is invalid"),
         ("smoke_error=2", "ERROR=2 is invalid"),
+        ("smoke_seed=1_seed=2", "seed=2 is given more than once"),
         ("smoke_erorr=1", "erorr=1 is no effort; did you mean error?"),
         ("smoke_error=0.1_replicas=2", "ERROR and REPLICAS both determine"),
     ],

@@ -302,7 +302,7 @@ class Plan:
 
 def in_numbers(value: object, cells: object) -> object:
     """A multiple of the number of cells, as 0.05N, as a number; other values of options as they are."""
-    multiple = re.fullmatch(r"([0-9.]+)N", str(value))
+    multiple = re.fullmatch(r"([0-9]+\.?[0-9]*|\.[0-9]+)N", str(value))
     return float(f"{float(multiple[1]) * cells:.12g}") if multiple and isinstance(cells, int) else value
 
 

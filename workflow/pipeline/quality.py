@@ -17,9 +17,9 @@ from workflow.pipeline.configuration import (
 QUALITIES = [path.stem for path in sorted((PANELS[0].parent / "quality").glob("*.yaml"))]
 DEFAULT_QUALITY = "standard"
 EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
-    "seed": ("[0-9]+", int, "a whole number"),
-    "replicas": ("[1-9][0-9]*", int, "a whole number, at least 1"),
-    "error": (r"0?\.0*[1-9][0-9]*", float, "a number less than 1, as 0.02 for 2 %"),
+    "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
+    "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
+    "error": (r"[0-9]*\.?[0-9]+(?:[eE]-?[0-9]+)?", float, "a number between 0 and 1, as 0.02 for 2 %"),
 }
 
 
@@ -41,8 +41,10 @@ class Quality:
         for key, _, text in (word.partition("=") for word in given):
             if key not in EFFORTS:
                 raise ConfigurationError(f"{key}={text} is no effort; {suggestion(key, EFFORTS)}")
+            if key in values:
+                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
             pattern, number, allowed = EFFORTS[key]
-            if not re.fullmatch(pattern, text):
+            if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
             values[key] = number(text)
         if "error" in values and "replicas" in values:
