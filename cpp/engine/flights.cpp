@@ -57,8 +57,7 @@ double expected_rate(const ClosedChain& chain, const PhasePoint& start) {
   for (const double scatterer : start.scatterers) twice_energy += scatterer * scatterer;
   const auto particles = static_cast<double>(start.particles.size());
   const double temperature = twice_energy / (particles + static_cast<double>(start.scatterers.size()));
-  const double scattering_probability = std::min(1.0, chain.gamma / chain.cells);
-  return particles * std::sqrt(2 * temperature / std::numbers::pi) * scattering_probability /
+  return particles * std::sqrt(2 * temperature / std::numbers::pi) * chain.scattering_probability() /
          chain.cell_length;
 }
 

@@ -41,7 +41,7 @@ class FreeFlight {
   /// particles: their number. Numbers beyond are copies of the chain, which share random numbers.
   FreeFlight(const ClosedChain& chain, const StreamKey& key, std::size_t particles)
       : passing_(!chain.deterministic()),
-        cells_to_scattering_(chain.gamma / chain.cells),
+        cells_to_scattering_(chain.scattering_probability()),
         key_(key),
         particles_(static_cast<std::uint32_t>(particles)) {}
 

@@ -22,7 +22,7 @@ OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, doub
                            const StreamKey& key)
     : chain_(chain),
       rule_(make_rule(chain.rule, chain.sigma)),
-      cells_to_scattering_(chain.gamma / chain.cells),
+      cells_to_scattering_(chain.scattering_probability()),
       half_cell_(chain.cell_length / 2),
       key_(key),
       passes_(key, Purpose::passes, 0),

@@ -63,8 +63,6 @@ PhasePoint empty_start(const OpenChain& chain) { return {{}, std::vector<double>
 
 PhasePoint local_equilibrium_start(const OpenChain& chain, const Reservoir& left, const Reservoir& right,
                                    double age, const StreamKey& key) {
-  const double flight =
-      chain.cell_length * (chain.deterministic() ? 1 : chain.cells / std::max(chain.gamma, 1.0));
   RandomStream stream(key, Purpose::initial_chain, 0);
   PhasePoint start;
   for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
@@ -72,7 +70,7 @@ PhasePoint local_equilibrium_start(const OpenChain& chain, const Reservoir& left
     const double rate = std::lerp(left.rate, right.rate, x);
     const double power = std::lerp(left.rate * left.temperature, right.rate * right.temperature, x);
     const double temperature = rate > 0 ? power / rate : std::lerp(left.temperature, right.temperature, x);
-    const EntryStream particles({rate, temperature}, flight, age);
+    const EntryStream particles({rate, temperature}, chain.free_path(), age);
     for (const double direction : {1., -1.}) {
       for (auto left_over = poisson(particles.density() * chain.cell_length, stream); left_over > 0;
            --left_over) {

@@ -59,13 +59,6 @@ Rules make_rule(const RuleChoice& choice, double sigma) {
   }
 }
 
-/// Whether the rule of this name draws the direction of the particle.
-inline bool draws_direction(std::string_view name) {
-  return []<class... Each>(std::type_identity<std::variant<Each...>>, std::string_view wanted) {
-    return ((Each::properties.name == wanted && DrawsDirection<Each>) || ...);
-  }(std::type_identity<Rules>(), name);
-}
-
 /// The mass of the scatterers.
 inline const ScattererMass& masses(const Rules& rule) {
   return std::visit([](const ScattererMass& mass) -> const ScattererMass& { return mass; }, rule);

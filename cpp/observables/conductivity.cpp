@@ -48,9 +48,9 @@ double heat_current(TallyMeans mean) {
 /// least five of its standard errors, because a ratio to a number that may be 0 has neither a mean nor an
 /// error. The error is 0 with one replica.
 Group::Array conductivities(const Records& records, double cells, bool defined) {
-  const Estimates found = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
-  const double error = records.size() > 1 ? found.standard_error.front() : 0;
-  const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
+  const Estimates difference = jackknife(records, [](TallyMeans mean) { return std::vector{rise(mean)}; });
+  const double error = records.size() > 1 ? difference.standard_error.front() : 0;
+  const bool resolved = defined && std::abs(difference.mean.front()) > 5 * error;
   return [=](TallyMeans mean) {
     const double per_rise = resolved ? -cells / rise(mean) : std::numeric_limits<double>::quiet_NaN();
     return std::vector{per_rise * mean[tallies.energy_current], per_rise * heat_current(mean)};

@@ -177,9 +177,9 @@ std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies
   for (std::uint32_t number = 0; number < pairs; ++number) {
     const auto heartbeat = [&](double) { replica.heartbeat(static_cast<double>(number) / pairs); };
     heartbeat(0);  // a short pair may not call it itself
-    const Replica own{StreamKey(replica.key.seed, replica.key.replica * pairs + number), heartbeat};
-    const auto [start, relaxation_events] = relaxed_start(before, own);
-    PairDynamics pair(chain, start, with_pulse(start, parameters), parameters.times.back(), own.key);
+    const Replica of_pair{StreamKey(replica.key.seed, replica.key.replica * pairs + number), heartbeat};
+    const auto [start, relaxation_events] = relaxed_start(before, of_pair);
+    PairDynamics pair(chain, start, with_pulse(start, parameters), parameters.times.back(), of_pair.key);
     const double injected = sum(energy_difference(pair, 0, chain)), total = energy(start) + injected;
     double error = 0;
     for (std::size_t k = 0; k < parameters.times.size(); ++k) {
@@ -240,7 +240,7 @@ Group spreading(const Tallies& tallies) {
       });
   const std::vector<MovingPeak::Measured> measured = MovingPeak::quantities(tallies.time, distance, "energy");
   std::vector<Description> descriptions;
-  for (const MovingPeak::Measured& each : measured) descriptions.push_back(each.what);
+  for (const MovingPeak::Measured& quantity : measured) descriptions.push_back(quantity.what);
   group.quantities(descriptions, [=](const Records& records) {
     PeakWindows windows = peak_windows(records, tallies.energy_difference, times.size());
     const std::vector<double> closed = ring_closed(records, tallies);
@@ -251,8 +251,8 @@ Group spreading(const Tallies& tallies) {
       const MovingPeak peak(mean[tallies.energy_difference], times, mean[tallies.injected_energy], windows);
       std::vector<double> values;
       for (const MovingPeak::Measured& quantity : measured) {
-        const std::vector<double> each = (peak.*quantity.values)();
-        values.insert(values.end(), each.begin(), each.end());
+        const std::vector<double> of_quantity = (peak.*quantity.values)();
+        values.insert(values.end(), of_quantity.begin(), of_quantity.end());
       }
       return values;
     };

@@ -7,9 +7,8 @@
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
 /// with A = 0 where momentum is not conserved. The totals of a ring fluctuate: at fixed totals <Q^2> would be
-/// smaller by a part of order t^2/N. Sound must not travel around the ring within the longest time. Without
-/// conserved momentum it decays, but after many collisions, unless the direction of a particle is drawn in
-/// each.
+/// smaller by a part of order t^2/N. Sound must not travel around the ring within the longest time: the panel
+/// refuses such a ring [eqs. 56, 57].
 #include "observables/heat_current/heat_current.hpp"
 
 #include <cmath>
@@ -68,47 +67,14 @@ void observe(const Parameters& parameters, const Tallies& tallies, const std::ve
     sums[tallies.heat][k] = mean_square(heat, windows[k]) / cells;
 }
 
-/// Fit of (59) to the heat from a time on: y/t = 4.5 A t^(1/3) + 2 D, where the variance of y is taken as
-/// y^2 t, as a record holds a number of independent windows that is proportional to 1/t.
-struct Growth {
-  double amplitude, diffusion;
-
-  static Growth of(std::span<const double> times, std::span<const double> heat, double from) {
-    std::vector<double> x, y, weight;
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      if (times[k] < from) continue;
-      x.push_back(std::pow(times[k], 1. / 3));
-      y.push_back(heat[k] / times[k]);
-      weight.push_back(1 / (y.back() * y.back() * times[k]));
-    }
-    const Line line = fit_line(x, y, weight);
-    return {line.slope / 4.5, line.intercept / 2};
-  }
-};
-
-std::vector<Group> growth_of_heat(const Parameters& parameters, const Tallies& tallies) {
+Group growth_of_heat(const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
   const Axis middle{"middle", "time", "Geometric middle of two neighbouring times", geometric_middles(times)};
-  const double T = parameters.temperature, length = parameters.ring.cell_length;
-  const auto fitted = [=, from = parameters.fit_from * (1 - 1e-9)](TallyMeans mean) {
-    const double unit = std::sqrt(T) / length;  // of the times
-    std::vector<double> s, y;
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      s.push_back(times[k] * unit);
-      y.push_back(mean[tallies.heat][k] / (T * T * length * length));
-    }
-    return Growth::of(s, y, from * unit);
-  };
   Group group;
   group.quantity(tallies, tallies.heat);
   group.quantity("local_exponent", {middle}, "1", "d ln <Q^2> / d ln t between two times",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.heat]); });
-  group.quantity("amplitude", "1",
-                 "A of <Q^2>/N = 4.5 A t^(4/3) + 2 D t from --fit-from on, in units of T and lambda",
-                 [=](TallyMeans mean) { return fitted(mean).amplitude; });
-  group.quantity("diffusion", "1", "D of the same fit",
-                 [=](TallyMeans mean) { return fitted(mean).diffusion; });
-  return {group};
+  return group;
 }
 
 Study heat_current(const Parameters& parameters) {
@@ -116,7 +82,7 @@ Study heat_current(const Parameters& parameters) {
   const Tallies tallies(parameters.times);
   return closed_study(parameters, tallies,
                       std::bind_front(observe, parameters, tallies, lags(parameters.times)),
-                      growth_of_heat(parameters, tallies), "amplitude");
+                      {growth_of_heat(tallies)}, "mean_square_heat");
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width, 
       [=, rates = all(halves, &Reading::rate),
        kurtosis = all(halves, &Reading::kurtosis)](const Records& records) {
         std::vector<double> crossings = rates(records.mean());
-        for (double& each : crossings) each *= duration * static_cast<double>(records.size());
+        for (double& number : crossings) number *= duration * static_cast<double>(records.size());
         return [=](TallyMeans mean) {
           std::vector<double> values = kurtosis(mean);
           for (std::size_t i = 0; i < values.size(); ++i)
@@ -97,8 +97,8 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width, 
       });
   moments.quantity("crossings", "1/time", "Crossings of a bond, mean over bonds",
                    [=, rates = all(halves, &Reading::rate)](TallyMeans mean) {
-                     const std::vector<double> each = rates(mean);
-                     return std::accumulate(each.begin(), each.end(), 0.0) /
+                     const std::vector<double> by_half = rates(mean);
+                     return std::accumulate(by_half.begin(), by_half.end(), 0.0) /
                             static_cast<double>(tallies.bonds());
                    });
   return {fluxes, moments};

@@ -136,9 +136,7 @@ Study particle_count(const Parameters& parameters) {
         "--times spans less than a factor of two: a slope in ln t would be undetermined. Add later times.");
   validate(parameters, parameters.times.back(), "--times");
   const OpenChain chain = parameters.chain();
-  const double cells = chain.cells,
-               free_path = chain.cell_length * (cells / std::clamp(chain.gamma, 1., cells));
-  const CensusGrid grid(parameters.times, parameters.bins.bins(), free_path);
+  const CensusGrid grid(parameters.times, parameters.bins.bins(), chain.free_path());
   const CensusTallies tallies(grid);
   const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));
   return open_study(

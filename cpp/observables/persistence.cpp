@@ -16,8 +16,8 @@ using namespace lorentz;
 /// 1 if u' u > 0, else 0. The signs are compared, because the product could underflow, and without a branch,
 /// because branch prediction fails for random signs. A particle that arrives has u != 0.
 int keeps_direction(double before, double after) {
-  const auto one = std::bit_cast<std::uint64_t>(before), other = std::bit_cast<std::uint64_t>(after);
-  return static_cast<int>(~(one ^ other) >> 63) & int{after != 0};
+  const auto differing = std::bit_cast<std::uint64_t>(before) ^ std::bit_cast<std::uint64_t>(after);
+  return static_cast<int>(~differing >> 63) & int{after != 0};
 }
 
 struct Tallies : ClosedTallies {

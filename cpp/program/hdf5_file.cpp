@@ -73,7 +73,7 @@ Hdf5Handle type_of(const AttributeValue& value) {
 std::span<const std::byte> data_of(const AttributeValue& value) {
   if (const auto* text = std::get_if<std::string>(&value))
     return std::as_bytes(std::span(text->c_str(), std::max<std::size_t>(text->size(), 1)));
-  return std::visit([](const auto& each) { return std::as_bytes(std::span(&each, 1)); }, value);
+  return std::visit([](const auto& number) { return std::as_bytes(std::span(&number, 1)); }, value);
 }
 
 template <class Value>

@@ -82,10 +82,10 @@ AttributeValue recorded(const Option&, bool value) { return value; }
 AttributeValue recorded(const Option&, const std::string& value) { return value; }
 
 /// The least number of characters to insert, delete or replace in one word to make the other.
-std::size_t edit_distance(const std::string& one, const std::string& other) {
+std::size_t edit_distance(const std::string& word, const std::string& other) {
   std::vector<std::size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), 0);
-  for (const char character : one) {
+  for (const char character : word) {
     std::size_t diagonal = row[0]++;
     for (std::size_t k = 0; k < other.size(); ++k) {
       const std::size_t replaced = diagonal + (character == other[k] ? 0 : 1);
@@ -99,15 +99,15 @@ std::size_t edit_distance(const std::string& one, const std::string& other) {
 }  // namespace
 
 std::string as_text(const AttributeValue& value) {
-  return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
+  return std::visit([](const auto& content) { return fmt::format("{}", content); }, value);
 }
 
 bool Option::read(const std::string& text) const {
-  return std::visit([&](auto* each) { return lorentz::read(text, *this, *each); }, variable);
+  return std::visit([&](auto* value) { return lorentz::read(text, *this, *value); }, variable);
 }
 
 AttributeValue Option::value() const {
-  return std::visit([&](const auto* each) { return recorded(*this, *each); }, variable);
+  return std::visit([&](const auto* content) { return recorded(*this, *content); }, variable);
 }
 
 std::string Option::end(double limit) const {
@@ -201,7 +201,8 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
   read(words);
   constexpr std::size_t most = 60'000;  // an attribute of an HDF5 file has at most 64 kB
   std::size_t of_parameters = 0;
-  for (const Parameter& each : parameters()) of_parameters += each.name.size() + as_text(each.value).size();
+  for (const Parameter& parameter : parameters())
+    of_parameters += parameter.name.size() + as_text(parameter.value).size();
   if (const std::size_t length = std::max(of_parameters, option_words_.size()); length > most)
     throw UsageError(fmt::format(
         "the options take {} characters, more than the {} that a result can state. Give shorter lists.",
@@ -219,7 +220,7 @@ std::vector<Parameter> Options::parameters() const {
     if (option.role != Role::execution && (option.rule.empty() || option.given))
       result.push_back(
           {option.name.substr(2), option.value(), option.units, option.role_name(), option.rule});
-  for (Parameter& each : result) std::ranges::replace(each.name, '-', '_');
+  for (Parameter& parameter : result) std::ranges::replace(parameter.name, '-', '_');
   std::ranges::sort(result, {}, &Parameter::name);
   return result;
 }

@@ -137,7 +137,7 @@ ExitStatus Program::write(const RunResult& result) const {
       {"error_without_control_variates", result.plain_error},
       {"converged", std::string(names.at(static_cast<std::size_t>(result.convergence)))},
   };
-  for (const Parameter& each : provenance) file.attribute("/provenance", each.name, each.value);
+  for (const auto& [name, value, units, role, rule] : provenance) file.attribute("/provenance", name, value);
   write_atomically(output_, file.image());
   const std::string spent = cost(elapsed(), result.former_seconds + cpu_seconds(), result.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));

@@ -197,10 +197,10 @@ void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>&
     checkpoint_on_exit("interrupted");
     std::_Exit(static_cast<int>(ExitStatus::interrupted) + received_signal);
   };
-  for (const std::future<void>& each : threads)
-    while (each.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) attend();
+  for (const std::future<void>& thread : threads)
+    while (thread.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) attend();
   attend();
-  for (std::future<void>& each : threads) each.get();
+  for (std::future<void>& thread : threads) thread.get();
 }
 
 /// Measures replicas below `end` in the order of the index until none is left or one has failed.
@@ -269,8 +269,8 @@ RunResult StudyProgram::estimate(std::uint64_t replicas) const {
   const Quantity& quantity = quantity_named(result.results, study_.target);
   const std::size_t k = least_accurate(quantity);
   const auto relative_error = [&](const Results& results) {
-    const Quantity& each = quantity_named(results, study_.target);
-    const double mean = each.mean[k], error = each.standard_error[k];
+    const Quantity& target = quantity_named(results, study_.target);
+    const double mean = target.mean[k], error = target.standard_error[k];
     return error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
   };
   result.achieved_error = relative_error(result.results);
@@ -311,8 +311,8 @@ void StudyProgram::report(const RunResult& result, std::uint64_t replicas) {
                                         counted(replicas),
                                         100 / std::sqrt(2.0 * static_cast<double>(replicas - 1))));
   std::size_t needed = 0;
-  for (const Quantity& each : result.results)
-    if (each.control_variates) needed = std::max(needed, each.control_variates->needed);
+  for (const Quantity& estimated : result.results)
+    if (estimated.control_variates) needed = std::max(needed, estimated.control_variates->needed);
   if (replicas < needed)
     program_.progress().say(fmt::format(
         "without control variates, which need {} replicas, errors are larger, often several times; "

@@ -30,8 +30,8 @@ RuleChoice RuleParameters::choice() const {
   return choice;
 }
 
-double ScatteringParameters::mean_scatterings() const {
-  return gamma.value_or(std::numeric_limits<double>::infinity());
+Scatterers ScatteringParameters::scatterers(double cell_length) const {
+  return {cells, cell_length, sigma, gamma.value_or(std::numeric_limits<double>::infinity()), rule.choice()};
 }
 
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range) {
@@ -48,9 +48,9 @@ void declare_without_gamma(Options& options, ScatteringParameters& parameters) {
 
 void declare(Options& options, RuleParameters& parameters) {
   std::vector<std::string> names, descriptions;
-  for (const RuleProperties& each : rules::all) {
-    names.emplace_back(each.name);
-    descriptions.push_back(fmt::format("{}: {}", each.name, each.description));
+  for (const RuleProperties& rule : rules::all) {
+    names.emplace_back(rule.name);
+    descriptions.push_back(fmt::format("{}: {}", rule.name, rule.description));
   }
   options.choice(Role::physics, "--rule", parameters.name, names,
                  fmt::format("Collision. {}", fmt::join(descriptions, "; ")));
@@ -112,12 +112,7 @@ void validate(const ScatteringParameters& parameters) {
 }
 
 ClosedChain ClosedChainParameters::chain() const {
-  return {.cells = scattering.cells,
-          .particles_per_cell = particles_per_cell,
-          .cell_length = cell_length,
-          .sigma = scattering.sigma,
-          .gamma = scattering.mean_scatterings(),
-          .rule = scattering.rule.choice()};
+  return {scattering.scatterers(cell_length), particles_per_cell};
 }
 
 void declare(Options& options, ClosedChainParameters& parameters) {

@@ -32,7 +32,7 @@ struct ScatteringParameters {
   std::optional<double> gamma{};  // mean number of scatterings in N cells; none: N, every scatterer scatters
   RuleParameters rule{};          // of collisions
 
-  double mean_scatterings() const;  // gamma of the model: infinite for N
+  Scatterers scatterers(double cell_length) const;
 };
 
 /// Declares --cells, --sigma, --gamma and --rule.

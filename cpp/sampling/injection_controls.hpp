@@ -20,8 +20,8 @@ struct OpeningCurrents {
     particles += std::copysign(0.5, u);
   }
 
-  friend OpeningCurrents operator+(const OpeningCurrents& one, const OpeningCurrents& other) {
-    return {one.energy + other.energy, one.particles + other.particles};
+  friend OpeningCurrents operator+(const OpeningCurrents& a, const OpeningCurrents& b) {
+    return {a.energy + b.energy, a.particles + b.particles};
   }
 };
 
@@ -43,9 +43,9 @@ class InjectionControls {
     sums[2] += 0.5 * u * u;
   }
 
-  friend InjectionControls operator+(InjectionControls one, const InjectionControls& other) {
-    for (std::size_t i = 0; i < count; ++i) one.sums_[i] += other.sums_[i];
-    return one;
+  friend InjectionControls operator+(InjectionControls a, const InjectionControls& b) {
+    for (std::size_t i = 0; i < count; ++i) a.sums_[i] += b.sums_[i];
+    return a;
   }
 
   /// Controls of a window of length `duration`.
@@ -54,8 +54,8 @@ class InjectionControls {
     std::size_t i = 0;
     for (const Reservoir& reservoir : {chain.left, chain.right}) {
       const double injected = reservoir.rate * duration;
-      for (const double each : {1.0, reservoir.mean_momentum(), reservoir.mean_energy()})
-        result[i++] -= injected * each;
+      for (const double mean : {1.0, reservoir.mean_momentum(), reservoir.mean_energy()})
+        result[i++] -= injected * mean;
     }
     return result;
   }

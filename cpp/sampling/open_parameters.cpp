@@ -8,13 +8,7 @@
 namespace lorentz {
 
 OpenChain OpenParameters::chain() const {
-  return {.cells = scattering.cells,
-          .cell_length = cell_length.value_or(1. / scattering.cells),
-          .sigma = scattering.sigma,
-          .gamma = scattering.mean_scatterings(),
-          .left = left,
-          .right = right,
-          .rule = scattering.rule.choice()};
+  return {scattering.scatterers(cell_length.value_or(1. / scattering.cells)), left, right};
 }
 
 PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {

@@ -43,11 +43,11 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
 
   // Leave-one-out coefficients b_(i) = b - g_i residual_i / (1 - leverage_i) [eq. 34].
   const Matrix g = transposed(pseudo_inverse(x_centred));
-  std::vector<double> own(rows);  // g_i.x_i / (1 - leverage_i)
+  std::vector<double> left_out(rows);  // g_i.x_i / (1 - leverage_i)
   for (std::size_t i = 0; i < rows; ++i) {
     const double leverage = dot(g.row(i), x_centred.row(i)) + 1. / static_cast<double>(rows);
     if (leverage > 0.99) return {};  // close to 1 the leave-one-out coefficient is undetermined
-    own[i] = dot(g.row(i), x.row(i)) / (1 - leverage);
+    left_out[i] = dot(g.row(i), x.row(i)) / (1 - leverage);
   }
 
   Records reduced(regression.measured.size());
@@ -58,7 +58,7 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
     for (std::size_t i = 0; i < rows; ++i)
       for (std::size_t column = 0; column < b.size(); ++column) b[column] += g(i, column) * y_centred(i, 0);
     for (std::size_t i = 0; i < rows; ++i)
-      reduced[i][k] = y(i, 0) - dot(b, x.row(i)) + own[i] * (y_centred(i, 0) - dot(b, x_centred.row(i)));
+      reduced[i][k] = y(i, 0) - dot(b, x.row(i)) + left_out[i] * (y_centred(i, 0) - dot(b, x_centred.row(i)));
   }
   return reduced;
 }

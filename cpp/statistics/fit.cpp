@@ -23,7 +23,7 @@ Line fit_line(std::span<const double> x, std::span<const double> y, std::span<co
 
 double fit_power(std::span<const double> x, std::span<const double> y, double from, double to) {
   std::vector<double> log_y;
-  for (const double each : y) log_y.push_back(std::log(each));
+  for (const double value : y) log_y.push_back(std::log(value));
   return fit_logarithm(x, log_y, from, to);
 }
 

@@ -13,29 +13,29 @@ namespace {
 
 std::size_t size_of(const std::vector<Description>& descriptions) {
   std::size_t size = 0;
-  for (const Description& each : descriptions) size += each.size();
+  for (const Description& what : descriptions) size += what.size();
   return size;
 }
 
 /// Appends the described quantities, whose values follow one another from `at` on, which is moved past them.
-void append(Results& results, const std::vector<Description>& what, const Estimates& estimate,
+void append(Results& results, const std::vector<Description>& descriptions, const Estimates& estimate,
             std::size_t& at, std::int64_t replicas, const std::optional<ControlVariates>& control_variates) {
-  for (const Description& each : what) {
+  for (const Description& what : descriptions) {
     const auto begin = static_cast<std::ptrdiff_t>(at),
-               end = begin + static_cast<std::ptrdiff_t>(each.size());
-    results.push_back({each,
+               end = begin + static_cast<std::ptrdiff_t>(what.size());
+    results.push_back({what,
                        {estimate.mean.begin() + begin, estimate.mean.begin() + end},
                        {estimate.standard_error.begin() + begin, estimate.standard_error.begin() + end},
-                       std::vector<std::int64_t>(each.size(), replicas),
+                       std::vector<std::int64_t>(what.size(), replicas),
                        control_variates});
-    at += each.size();
+    at += what.size();
   }
 }
 
 }  // namespace
 
 const Quantity& quantity_named(const Results& results, std::string_view name) {
-  return *std::ranges::find(results, name, [](const Quantity& each) { return each.what.name; });
+  return *std::ranges::find(results, name, [](const Quantity& quantity) { return quantity.what.name; });
 }
 
 Estimates jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
@@ -54,7 +54,7 @@ Estimates jackknife(const Records& records, const std::function<std::vector<doub
   for (std::size_t replica = 0; replica < records.size(); ++replica)
     for (std::size_t i = 0; i < mean.size(); ++i)
       scale[i] = std::max(scale[i], std::abs(records[replica][i]));
-  for (double& each : scale) each = towards_one(each);
+  for (double& factor : scale) factor = towards_one(factor);
   std::vector<CompensatedSum> sums(mean.size());
   for (std::size_t replica = 0; replica < records.size(); ++replica)
     for (std::size_t i = 0; i < mean.size(); ++i) sums[i].add(scale[i] * records[replica][i]);
@@ -62,7 +62,7 @@ Estimates jackknife(const Records& records, const std::function<std::vector<doub
   // Welford's algorithm is stable if the leave-one-out values differ in their last digits only. It
   // accumulates the root of the sum of squares, because squares of large or small numbers overflow or
   // underflow.
-  std::vector<double> centre(quantities, 0), root(quantities, 0), without(mean.size());
+  std::vector<double> centre(quantities, 0), roots(quantities, 0), without(mean.size());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     for (std::size_t i = 0; i < mean.size(); ++i)
       without[i] = sums[i].without(scale[i] * records[replica][i]) / (replicas - 1) / scale[i];
@@ -70,12 +70,12 @@ Estimates jackknife(const Records& records, const std::function<std::vector<doub
     for (std::size_t k = 0; k < quantities; ++k) {
       const double deviation = value[k] - centre[k];
       centre[k] += deviation / static_cast<double>(replica + 1);
-      root[k] =
-          std::hypot(root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
+      roots[k] =
+          std::hypot(roots[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
     }
   }
-  for (const double each : root)
-    estimate.standard_error.push_back(std::sqrt((replicas - 1) / replicas) * each);
+  for (const double root_of_squares : roots)
+    estimate.standard_error.push_back(std::sqrt((replicas - 1) / replicas) * root_of_squares);
   return estimate;
 }
 

@@ -44,8 +44,9 @@ struct Estimates {
 /// replicas the error is NaN.
 Estimates jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f);
 
-/// Quantities that are estimated together: from one preparation of the records, by one jackknife. Their
-/// descriptions exist before any record does (--describe).
+/// Quantities that are estimated together: from one preparation of the records, by one jackknife. Quantities
+/// without control variates thus need a group of their own. Descriptions exist before any record does
+/// (--describe).
 class Group {
  public:
   /// Records to which the formulas are applied: a part or a transformation of the measured ones, or these

@@ -40,9 +40,9 @@ ScalarTally TallySchema::tally(std::string_view name, std::string_view units, st
 
 const Description& TallySchema::description(Tally tally) const {
   std::size_t first = 0;
-  for (const Description& each : tallies_) {
-    if (first == tally.first && each.size() == tally.size) return each;
-    first += each.size();
+  for (const Description& what : tallies_) {
+    if (first == tally.first && what.size() == tally.size) return what;
+    first += what.size();
   }
   throw std::logic_error("a tally of another schema");
 }
@@ -55,10 +55,10 @@ void TallySums::set(Tally tally, std::span<const double> values) {
 
 void TallySums::require_filled() const {
   auto begin = accessed_.begin();
-  for (const Description& each : schema_.tallies()) {
-    const auto end = begin + static_cast<std::ptrdiff_t>(each.size());
+  for (const Description& what : schema_.tallies()) {
+    const auto end = begin + static_cast<std::ptrdiff_t>(what.size());
     if (begin != end && std::find(begin, end, true) == end)
-      throw std::logic_error("the tally " + each.name + " is declared and never filled");
+      throw std::logic_error("the tally " + what.name + " is declared and never filled");
     begin = end;
   }
 }

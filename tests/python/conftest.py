@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 GENERAL = {"cells": 5, "particles-per-cell": 3, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 NAMED: dict[str, dict[str, object]] = {
-    "heat_current": {"cells": 20, "observation-time": 10, "times": "1,2,4", "fit-from": 1, "replicas": 4},
+    "heat_current": {"cells": 20, "observation-time": 10, "times": "1,2,4", "replicas": 4},
     "energy_pulse": {"cells": 21, "particles-per-cell": 20, "times": "0.01,0.014", "replicas": 4},
     "particle_count": {"cells": 5, "times": "2,5,10", "replicas": 4},
     "boltzmann": {},

@@ -28,7 +28,7 @@ BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
         {"times": "1e-9,1"},
         {"times": "1,2", "observation-time": 1.5},
         {"times": "1,2.5"},
-        {"fit-from": 3},
+        {"times": "1"},
         {"fugacity": 1e12},
     ],
     "conductivity": [

@@ -8,7 +8,7 @@ ROLES = {
     "temperature-left nu-right scatterer-temperature zero-total-momentum energy pulse-energy "
     "pulse-cells fugacity",
     "effort": "replicas seed target-error target-scale pairs-per-replica",
-    "output": "times momentum-bins momentum-max decades fit-decades fit-from tail-from positions",
+    "output": "times momentum-bins momentum-max decades fit-decades tail-from positions",
     "execution": "threads progress output overwrite resume checkpoint-interval describe",
 }
 ROLES_IN_PROGRAMS = {

@@ -12,7 +12,7 @@ SEEDS, LEVEL = 50, 1e-3
 REPLICAS = 24
 
 OPEN = {"cells": 5, "relaxation_time": 0.5, "observation_time": 4}
-EQUILIBRIUM = {"cells": 30, "observation_time": 64, "times": "1,2,4,8", "fit_from": 2}
+EQUILIBRIUM = {"cells": 30, "observation_time": 64, "times": "1,2,4,8"}
 CASES: list[tuple[str, str, dict]] = [
     ("persistence", "mu", {"sigma": -0.8}),
     ("waiting_time", "exponent", {"sigma": 0.5, "observation_time": 50}),

@@ -30,7 +30,7 @@ CLOSED = {
 # No time before the first collisions: exponents of ballistic motion have errors of rounding.
 TAGGED = CLOSED | {"decades": 2}
 PULSE = {"cells": 41, "particles-per-cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
-EQUILIBRIUM = {"cells": 20, "observation-time": 8, "times": "0.5,1,2,4", "fit-from": 1, "replicas": 8}
+EQUILIBRIUM = {"cells": 20, "observation-time": 8, "times": "0.5,1,2,4", "replicas": 8}
 OPEN = {"cells": 5, "cell-length": 0.3, "relaxation-time": 0.5, "observation-time": 20, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
 CASES = {

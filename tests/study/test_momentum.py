@@ -7,7 +7,7 @@ import pytest
 
 from tests.python.plotted import CHAIN, RING, assert_points, draw, errors_of, result
 from workflow.lib.load import Result
-from workflow.study.rings import gas, tabulate
+from workflow.study.rings import chain, gas, tabulate
 
 RING_OF_A_GAS = RING | {"cells": 100, "sigma": 0.5, "fugacity": 0.25, "temperature": 1.0}
 
@@ -21,6 +21,15 @@ def observed(series: str, times: Sequence[float], power: float, **options: objec
     return result(
         series, RING_OF_A_GAS | options, "heat_current", mean_square_heat=heat, local_exponent=exponent
     )
+
+
+def test_sound_must_not_come_around() -> None:
+    """M = 3, ζ = 0.25, t = 10: c = (2/21)^(1/2) and λ_s = 10/21 · 3.5^(-1/2) [eqs. 56, 57], so that both
+    peaks with their widths need 2 (3.086 + 0.7145 · 1.864) = 8.84 cells."""
+    time = [5.0, 10.0]
+    chain(observed("thin", time, 1.3, cells=9))
+    with pytest.raises(ValueError, match=r"thin: .* at least 9 cells"):
+        chain(observed("thin", time, 1.3, cells=8))
 
 
 def test_momentum() -> None:

@@ -1,6 +1,7 @@
 """Rings in equilibrium."""
 
 from collections.abc import Sequence
+from math import ceil
 from typing import Any
 
 import pandas as pd
@@ -12,6 +13,7 @@ from workflow.physics.sound import Chain
 
 STATE = ["sigma", "fugacity", "temperature", "cell_length"]  # parameters of a gas
 SLOW_FLUX = 16  # z in the middle of fig. 8's chain: between 19.4 and 13.0, those of its baths
+SECOND_MOMENT = 0.510523  # of f_KPZ, the shape of a peak of sound
 GAS = ["rule", "epsilon", *STATE]  # columns that identify a gas
 
 
@@ -21,9 +23,19 @@ def epsilon(result: Result) -> float:
 
 
 def chain(result: Result) -> Chain:
-    """The gas of a ring."""
+    """The gas of a ring. Raises ValueError if sound travels around the ring within its last time: two peaks
+    meet after half of it, as wide as their root mean square [eq. 57]."""
     temperature, length = (result.parameters[name] for name in ("temperature", "cell_length"))
-    return Chain(result.parameters["fugacity"] * length, run_parameters.mass(result), temperature, length)
+    gas = Chain(result.parameters["fugacity"] * length, run_parameters.mass(result), temperature, length)
+    time = result["mean_square_heat"].axes["time"][-1]
+    reach = gas.sound_speed * time + SECOND_MOMENT**0.5 * (gas.self_coupling * time) ** (2 / 3)
+    least = 2 * reach / length
+    if result.parameters["cells"] < least:
+        raise ValueError(
+            f"{result.series}: sound travels around the ring until t = {time:g}; choose at least "
+            f"{ceil(least)} cells, or earlier times"
+        )
+    return gas
 
 
 def gas(result: Result) -> tuple[str | float, ...]:

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/open_chain.hpp"
+#include "model/scatterers.hpp"
 
 namespace lorentz {
 
@@ -23,10 +23,10 @@ namespace lorentz {
 /// rules the control is valid, but may reduce the variance less.
 class ScatteringControl {
  public:
-  explicit ScatteringControl(const OpenChain& chain)
+  explicit ScatteringControl(const Scatterers& chain)
       : sigma_(chain.sigma),
         c_(std::sqrt((1 - chain.sigma) * (1 + chain.sigma))),
-        probability_(chain.deterministic() ? 1 : chain.gamma / chain.cells) {}
+        probability_(chain.scattering_probability()) {}
 
   /// Registers a particle of velocity u that arrives at a time in the window, and is scattered or
   /// not. Ignored for gamma = N, where the control is 0.

@@ -23,7 +23,7 @@ std::vector<std::vector<double>> folded_profiles(std::span<const double> profile
 }
 
 Peak peak_in(const std::optional<PeakWindow>& window, const std::vector<double>& profile) {
-  return window ? fit_peak(profile, *window) : Peak{none, none, none, none};
+  return window ? fit_peak(profile, *window) : Peak{none, none};
 }
 
 /// Middles of neighbouring times, where speeds between them belong.
@@ -46,9 +46,9 @@ PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t tim
     for (std::size_t k = 0; k < times; ++k) values.push_back(peak_in(windows[k], folded[k]).height);
     return values;
   });
-  const std::vector<double>& known = records.size() > 1 ? heights.standard_error : heights.mean;
+  const std::vector<double>& defined = records.size() > 1 ? heights.standard_error : heights.mean;
   for (std::size_t k = 0; k < times; ++k)
-    if (std::isnan(known[k])) windows[k].reset();
+    if (std::isnan(defined[k])) windows[k].reset();
   return windows;
 }
 
@@ -79,9 +79,6 @@ std::vector<MovingPeak::Measured> MovingPeak::quantities(const Axis& time, const
        &MovingPeak::positions},
       {{"peak", units, "Height of the moving peak, by a fit of exp(cubic) above half of it", {time}},
        &MovingPeak::heights},
-      {{"peak_quadratic", "1", "Coefficient of s^2 in ln of this fit, s: cells from peak_position", {time}},
-       &MovingPeak::quadratics},
-      {{"peak_cubic", "1", "Coefficient of s^3 in ln of this fit", {time}}, &MovingPeak::cubics},
       {{"peak_speed", "1/time", "Cells per time by which peak_position moves between two times", {middle}},
        &MovingPeak::speeds},
       {{"local_damping_exponent", "1", "Minus the slope of ln peak against ln t over an octave", {until}},
@@ -105,8 +102,6 @@ MovingPeak::MovingPeak(std::span<const double> profiles, std::vector<double> tim
     const Peak peak = peak_in(windows[k], sides_[k]);
     positions_.push_back(peak.position);
     heights_.push_back(peak.height);
-    quadratics_.push_back(peak.quadratic);
-    cubics_.push_back(peak.cubic);
   }
 }
 

@@ -40,8 +40,6 @@ class MovingPeak {
 
   std::vector<double> positions() const { return positions_; }
   std::vector<double> heights() const { return heights_; }
-  std::vector<double> quadratics() const { return quadratics_; }
-  std::vector<double> cubics() const { return cubics_; }
   std::vector<double> speeds() const;                                  // between neighbouring times
   std::vector<double> centre_shares() const;                           // part in the five central cells
   std::vector<double> odd_parts() const;                               // [time, distance]
@@ -64,7 +62,7 @@ class MovingPeak {
   std::vector<double> times_;
   double total_;
   std::vector<std::vector<double>> sides_;  // folded profile at every time
-  std::vector<double> positions_, heights_, quadratics_, cubics_;
+  std::vector<double> positions_, heights_;
 };
 
 }  // namespace lorentz

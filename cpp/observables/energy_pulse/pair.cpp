@@ -11,10 +11,10 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
       diverged_flights_(1),
       scatterer_diverged_(chain.cells, 0),
       queue_(first_events(plain, perturbed, end_time, share), expected_rate(chain, plain), end_time) {
-  const std::vector<double> one = masses(rule_).scaled(plain.scatterers);
-  const std::vector<double> other = masses(rule_).scaled(perturbed.scatterers);
+  const std::vector<double> w = masses(rule_).scaled(plain.scatterers);
+  const std::vector<double> perturbed_w = masses(rule_).scaled(perturbed.scatterers);
   for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
-    scatterers_.push_back({one[cell], other[cell]});
+    scatterers_.push_back({w[cell], perturbed_w[cell]});
     // Copies have equal bits; any difference, however small, makes two trajectories.
     if (share && plain.scatterers[cell] == perturbed.scatterers[cell]) continue;
     scatterer_diverged_[cell] = 1;

@@ -13,7 +13,7 @@ namespace lorentz {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr Peak no_peak{nothing, nothing, nothing, nothing};
+constexpr Peak no_peak{nothing, nothing};
 constexpr double part_of_maximum = 0.5;   // level of the window
 constexpr double least_half_width = 2.5;  // in cells
 
@@ -122,9 +122,7 @@ Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window) {
   // Maximum of the cubic p(u): p'(u) = 0 and p''(u) < 0, in the form without cancellation.
   const double top = c1 / (std::sqrt(c2 * c2 - 3 * c1 * c3) - c2);
   if (!(std::abs(top) < 1)) return no_peak;
-  const double cell = 1 / window.half_width;
-  return {window.middle + window.half_width * top, scale * std::exp(cubic(fitted, top)),
-          (c2 + 3 * c3 * top) * cell * cell, c3 * cell * cell * cell};
+  return {window.middle + window.half_width * top, scale * std::exp(cubic(fitted, top))};
 }
 
 }  // namespace lorentz

@@ -27,11 +27,10 @@ struct PeakWindow {
 /// jackknife samples would add noise from cells at their ends.
 std::optional<PeakWindow> peak_window(const std::vector<double>& profile);
 
-/// Maximum of a profile height exp(quadratic s^2 + cubic s^3), s = d - position.
+/// Maximum of a profile.
 struct Peak {
   double position;  // distance in cells
   double height;
-  double quadratic = 0, cubic = 0;  // per cell^2, per cell^3
 };
 
 /// Maximum of exp(cubic), fitted in the window by least squares with the weights 1 - ((d -

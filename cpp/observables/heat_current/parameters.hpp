@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/rules.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_parameters.hpp"
 
@@ -17,7 +16,6 @@ namespace lorentz {
 /// Parameters of a record of a closed chain in its stationary state, from which it starts.
 struct HeatCurrentParameters : ClosedParameters {
   std::vector<double> times{1, 2, 4, 8, 16, 32, 64};  // over which the current is integrated
-  double fit_from = 16;
 
   HeatCurrentParameters() {
     ring.scattering.cells = 160;
@@ -62,32 +60,9 @@ inline void declare(Options& options, HeatCurrentParameters& parameters) {
                "Time of the record");
   options.ascending_list(Role::output, "--times", parameters.times, positive, "time",
                          "Times over which the current is integrated, multiples of the first");
-  options.real(Role::output, "--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
 }
 
-/// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. 56, 57].
-/// Validity: where momentum is conserved.
-struct Sound {
-  double speed;          // c, a length over a time
-  double self_coupling;  // lambda_s, length^(3/2)/time
-
-  static Sound of(const HeatCurrentParameters& parameters) {
-    const double z = parameters.fugacity.value(), spacing = parameters.ring.cell_length;
-    const double a = z + 0.5 / spacing,
-                 rho = 2 * z + scatterer_mass(parameters.ring.scattering.sigma) / spacing;
-    const double T = parameters.temperature;
-    return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
-  }
-
-  /// Distance that a peak has covered after a time, plus its root-mean-square width [eq. 57].
-  double reach(double time) const {
-    const double second_moment = 0.510523;  // of f_KPZ
-    return speed * time + std::sqrt(second_moment) * std::pow(self_coupling * time, 2. / 3);
-  }
-};
-
-/// Throws UsageError if options that are valid one by one exclude each other, or if sound travels around the
-/// ring.
+/// Throws UsageError if options that are valid one by one exclude each other.
 inline void validate(const HeatCurrentParameters& parameters) {
   validate(static_cast<const ClosedParameters&>(parameters));
   const std::vector<double>& times = parameters.times;
@@ -95,21 +70,13 @@ inline void validate(const HeatCurrentParameters& parameters) {
     throw UsageError(
         fmt::format("--times: {} is beyond --observation-time {}. Choose a longer one, or earlier times.",
                     times.back(), parameters.observation_time));
+  if (times.size() < 2) throw UsageError("--times has one time: the exponent needs two. Add another.");
   constexpr double most_intervals = 1e8;
   if (parameters.observation_time > most_intervals * times.front())
     throw UsageError(fmt::format(
         "--observation-time, --times: a record would have more than {:g} of the first of --times. Choose a "
         "shorter one, or later times.",
         most_intervals));
-  if (std::ranges::count_if(times, [&](double time) { return time >= parameters.fit_from; }) < 2)
-    throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
-  const ScatteringParameters& scattering = parameters.ring.scattering;
-  const double least = std::ceil(2 * Sound::of(parameters).reach(times.back()) / parameters.ring.cell_length);
-  if (!draws_direction(scattering.rule.name) && scattering.cells < least)
-    throw UsageError(fmt::format(
-        "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} cells, or "
-        "earlier times.",
-        least));
 }
 
 }  // namespace lorentz

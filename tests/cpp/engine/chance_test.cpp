@@ -31,8 +31,8 @@ std::vector<double> draws(const StreamKey& key, bool stationary) {
     for (const double U : point.scatterers) drawn.push_back(std::abs(U));
     for (const auto& [x, u, _] : point.particles) drawn.insert(drawn.end(), {x - std::floor(x), std::abs(u)});
   };
-  const ClosedChain ring{.cells = 100, .particles_per_cell = 10};
-  const OpenChain row{.cells = 100, .cell_length = 1, .left = {5, 1}, .right = {5, 1}};
+  const ClosedChain ring{{.cells = 100}, 10};
+  const OpenChain row{{.cells = 100}, {5, 1}, {5, 1}};
   add(stationary ? stationary_start(ring, {1, 1, 0.01}, key) : closed_chain_start(ring, {1, 1}, false, key));
   add(local_equilibrium_start(row, row.left, row.right, 10, key));
   OpenDynamics dynamics(row, empty_start(row), 100, key);
@@ -82,8 +82,7 @@ struct FlightsOfParticles {
 TEST(Chance, FlightsOfAClosedChainHaveNumbersOfTheirOwn) {
   const StreamKey key(3, 2);
   for (const double gamma : {16, 64}) {
-    const ClosedChain chain{
-        .cells = 64, .particles_per_cell = 1, .gamma = gamma, .rule = {"random-direction"}};
+    const ClosedChain chain{{.cells = 64, .gamma = gamma, .rule = {"random-direction"}}, 1};
     const PhasePoint begin = closed_chain_start(chain, {1, 1}, false, key);
     PhasePoint end;
     const auto wrong = [&](const PhasePoint& start, const std::vector<Particle>& counted) {

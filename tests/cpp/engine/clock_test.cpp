@@ -19,7 +19,7 @@ constexpr double cell_length = 1, temperature = 500;
 /// For each scatterer the sequence of arriving particles, which alone determines the velocities.
 using Arrivals = std::vector<std::vector<std::size_t>>;
 
-ClosedChain chain(double sigma) { return {11, 20, cell_length, sigma}; }
+ClosedChain chain(double sigma) { return {{11, cell_length, sigma}, 20}; }
 
 PhasePoint start(double sigma) { return closed_chain_start(chain(sigma), {temperature, 100}, false, {1, 0}); }
 

@@ -18,8 +18,7 @@ using namespace support;
 
 // A rotation is reported with the side of the neighbour that it changed, on the ring, too.
 TEST(Simulate, ReportsTheNeighbourThatARuleChanges) {
-  const ClosedChain chain{
-      .cells = 4, .particles_per_cell = 1, .cell_length = 1, .sigma = 0.5, .rule = {"rotation", {1}}};
+  const ClosedChain chain{{.cells = 4, .rule = {"rotation", {1}}}, 1};
   int left = 0;
   for (const std::uint32_t seed : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U})
     for (const std::uint32_t cell : {0U, 3U}) {
@@ -58,13 +57,13 @@ TEST(Simulate, HeartbeatsComeEvery65536EventsAndMayStopTheRun) {
     EXPECT_THROW(simulate(dynamics, 2 * end, nobody, stop), std::runtime_error);
   };
   for (const std::uint32_t cells : {1U, 11U}) {
-    const ClosedChain chain{cells, cells, 1, 0.5};
+    const ClosedChain chain{{.cells = cells}, cells};
     const double end = 8e5 / cells / cells;
     ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, {5, 0}), 2 * end, {1, 0});
     check(dynamics, end);
   }
   for (const double gamma : {0., 4.}) {
-    const OpenChain chain{.cells = 4, .cell_length = 0.25, .gamma = gamma};
+    const OpenChain chain{{.cells = 4, .cell_length = 0.25, .gamma = gamma}};
     OpenDynamics dynamics(chain, empty_start(chain), 4000, {1, 0});
     check(dynamics, 2000);
   }

@@ -14,7 +14,7 @@ namespace closed_start_test {
 using namespace lorentz;
 using support::plausible;
 
-const ClosedChain chain{1000, 50, 0.5, 0.3};
+const ClosedChain chain{{.cells = 1000, .cell_length = 0.5, .sigma = 0.3}, 50};
 constexpr StartTemperatures temperatures{500, 80};
 
 PhasePoint start() { return closed_chain_start(chain, temperatures, false, {1, 0}); }

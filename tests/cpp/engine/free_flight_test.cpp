@@ -10,7 +10,7 @@ namespace free_flight_test {
 
 using namespace lorentz;
 
-ClosedChain chain_with(double gamma) { return {5, 20, 1, 0.5, gamma}; }
+ClosedChain chain_with(double gamma) { return {{.cells = 5, .gamma = gamma}, 20}; }
 
 /// chi^2 of draws of the number of cells against the geometric law of probability p; 20 classes.
 double chi_squared_of_cells(const FreeFlight& free_flight, double p) {

@@ -22,8 +22,8 @@ auto numbers(const Collision& one) {
 
 // A particle that never arrives has no effect: the chain without it has the same collisions.
 TEST(FrozenParticles, TouchNothing) {
-  const ClosedChain few{4, 2, 1, 0.5};
-  const ClosedChain more{4, 3, 1, 0.5};
+  const ClosedChain few{{.cells = 4}, 2};
+  const ClosedChain more{{.cells = 4}, 3};
   const PhasePoint start = closed_chain_start(few, {}, false, {3, 0});
   const std::vector<Collision> expected = collisions(few, start, 50);
   ASSERT_GT(expected.size(), 1000U);
@@ -43,7 +43,7 @@ TEST(FrozenParticles, TouchNothing) {
 // At sigma = 0 a particle takes over the velocity of the scatterer. The first particle to reach a scatterer
 // at rest thus stops there for ever, so one particle per scatterer stops.
 TEST(FrozenParticles, AreThoseThatStop) {
-  const ClosedChain chain{11, 20, 1, 0};
+  const ClosedChain chain{{.cells = 11, .sigma = 0}, 20};
   const PhasePoint start = closed_chain_start(chain, {}, false, {4, 0});
   const std::vector<Collision> all = collisions(chain, start, 20);
   std::vector<bool> stopped(chain.particles(), false);

@@ -23,7 +23,7 @@ using namespace lorentz;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 OpenChain chain_of(std::uint32_t cells, double gamma, double sigma = 0.5) {
-  return {cells, 1. / cells, sigma, gamma, {220, 900. / 11}, {180, 1100. / 9}};
+  return {{cells, 1. / cells, sigma, gamma}, {220, 900. / 11}, {180, 1100. / 9}};
 }
 
 /// Records injections, exits and every flight.

@@ -87,8 +87,8 @@ const std::vector<double> sigmas = {-0.95, -0.9, -0.5, -0.3, 0, 0.1, 0.5, 0.9, 0
 
 TEST(SimulateAgainstReference, EveryCollision) {
   for (const double sigma : sigmas) {
-    compare<long double>({11, 20, 1, sigma}, 2000, 1);
-    compare<double>({11, 20, 1, sigma}, 2000, 2);
+    compare<long double>({{11, 1, sigma}, 20}, 2000, 1);
+    compare<double>({{11, 1, sigma}, 20}, 2000, 2);
   }
 }
 
@@ -96,11 +96,11 @@ TEST(SimulateAgainstReference, EveryCollision) {
 // neighbours are the same scatterer. One particle and one scatterer exchange their energy back and forth.
 TEST(SimulateAgainstReference, SmallestChains) {
   for (const double sigma : sigmas) {
-    compare<long double>({1, 2, 1, sigma}, 50, 3);
-    compare<long double>({1, 20, 0.1, sigma}, 500, 3);
-    compare<long double>({2, 3, 1, sigma}, 200, 4);
-    compare<long double>({3, 1, 7, sigma}, 50, 5);
-    compare<long double>({1, 1, 1, sigma}, 10, 1);
+    compare<long double>({{1, 1, sigma}, 2}, 50, 3);
+    compare<long double>({{1, 0.1, sigma}, 20}, 500, 3);
+    compare<long double>({{2, 1, sigma}, 3}, 200, 4);
+    compare<long double>({{3, 7, sigma}, 1}, 50, 5);
+    compare<long double>({{1, 1, sigma}, 1}, 10, 1);
   }
 }
 

@@ -14,7 +14,7 @@ namespace stationary_start_test {
 using namespace lorentz;
 using support::plausible;
 
-const ClosedChain chain{.cells = 4000, .cell_length = 0.5, .sigma = 0.5};
+const ClosedChain chain{{.cells = 4000, .cell_length = 0.5}};
 constexpr StationaryMeasure measure{.fugacity = 3, .temperature = 4, .slowest = 0.2};
 constexpr double zeta = 1.5;
 

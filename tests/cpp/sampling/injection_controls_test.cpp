@@ -9,8 +9,7 @@ namespace injection_controls_test {
 
 using namespace lorentz;
 
-constexpr OpenChain chain{
-    .cells = 3, .left = {.rate = 5, .temperature = 2}, .right = {.rate = 0, .temperature = 8}};
+const OpenChain chain{{.cells = 3}, {.rate = 5, .temperature = 2}, {.rate = 0, .temperature = 8}};
 
 // Detected mistakes: u is summed in place of |u|; the energy is u^2 instead of u^2/2; both ends are added
 // together; the mean is not multiplied by the duration; the means of the other reservoir are subtracted.

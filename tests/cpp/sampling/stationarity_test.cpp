@@ -12,7 +12,7 @@ namespace stationarity_test {
 using namespace lorentz;
 
 /// The expected injections are 0, so that nothing is subtracted from the controls.
-const OpenChain chain{.cells = 5, .left = {0, 1}, .right = {0, 1}};
+const OpenChain chain{{.cells = 5, .cell_length = 1. / 30}, {0, 1}, {0, 1}};
 const Window window{2, 10};
 
 // Detected mistakes: the middle scatterer is another one; the first half is not subtracted; the energy of a
@@ -103,7 +103,7 @@ TEST(Stationarity, ThresholdOfThePValue) {
   Columns tested = tallies.halves();
   tested.push_back(tallies.energy.column);
   constexpr std::size_t replicas = 11;
-  const OpenChain fed{.cells = 5, .left = {6, 1}, .right = {4, 1}};
+  const OpenChain fed{{.cells = 5}, {6, 1}, {4, 1}};
   const double t = gsl_cdf_tdist_Qinv(1e-4 / 4, replicas - 1);
   for (const std::size_t column : tested)
     for (const double factor : {-1.01, -0.99, 0.99, 1.01}) {
@@ -132,7 +132,7 @@ TEST(Stationarity, GainOfParticles) {
       row[tallies.particles.column] = gain + scatter * noise;
       records.append(row);
     }
-    const OpenChain fed{.cells = 5, .left = {6, 1}, .right = {4, 1}};
+    const OpenChain fed{{.cells = 5}, {6, 1}, {4, 1}};
     return quantity_named(stationarity(tallies, fed).estimate(records), "stationary").mean.front();
   };
   for (const double sign : {-1., 1.}) {

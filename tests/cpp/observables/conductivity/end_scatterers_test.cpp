@@ -8,7 +8,7 @@ namespace end_scatterers_test {
 
 using namespace lorentz;
 
-const OpenChain chain{.cells = 3, .left = {0, 1}, .right = {0, 1}};
+const OpenChain chain{{.cells = 3, .cell_length = 1. / 30}, {0, 1}, {0, 1}};
 const Window window{2, 10};
 
 std::vector<double> recorded(const EndScatterers& observer, const EndTallies& tallies, Tally tally) {

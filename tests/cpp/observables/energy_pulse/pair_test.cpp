@@ -83,10 +83,12 @@ TEST_P(Pair, IsTwoSimulationsBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Chains, Pair,
-                         testing::Values(ClosedChain{21, 20, 1, 0.5}, ClosedChain{21, 20, 0.5, -0.9},
-                                         ClosedChain{21, 20, 1, 0.5, 1.0}, ClosedChain{21, 20, 1, 0, 3.0},
-                                         ClosedChain{.cells = 21, .rule = {"random-direction"}},
-                                         ClosedChain{.cells = 21, .gamma = 3, .rule = {"random-direction"}},
-                                         ClosedChain{.cells = 21, .rule = {"reversal", {0.3}}}));
+                         testing::Values(ClosedChain{{.cells = 21}},
+                                         ClosedChain{{.cells = 21, .cell_length = 0.5, .sigma = -0.9}},
+                                         ClosedChain{{.cells = 21, .gamma = 1}},
+                                         ClosedChain{{.cells = 21, .sigma = 0, .gamma = 3}},
+                                         ClosedChain{{.cells = 21, .rule = {"random-direction"}}},
+                                         ClosedChain{{.cells = 21, .gamma = 3, .rule = {"random-direction"}}},
+                                         ClosedChain{{.cells = 21, .rule = {"reversal", {0.3}}}}));
 
 }  // namespace pair_test

@@ -9,7 +9,7 @@ namespace bond_crossings_test {
 using namespace lorentz;
 using Values = std::vector<double>;
 
-const OpenChain chain{.cells = 2, .left = {3, 2}, .right = {0, 1}};
+const OpenChain chain{{.cells = 2, .cell_length = 1. / 30}, {3, 2}, {0, 1}};
 const Window window{2, 10};
 const Bins bins(4, 4);
 
