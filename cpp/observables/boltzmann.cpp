@@ -88,7 +88,7 @@ std::vector<double> bonds_or(const std::vector<double>& positions, const Paramet
   return bonds;
 }
 
-/// The quantities. Lists of their values and errors have this order.
+/// The quantities, in the order of Values and of lists of errors.
 std::vector<Description> descriptions(const Parameters& parameters) {
   const Axis x{"x", "1", "Position over the length of the chain; bonds of a chain of cells",
                bonds_or(parameters.positions, parameters)};
@@ -103,13 +103,12 @@ std::vector<Description> descriptions(const Parameters& parameters) {
           {"flux", "1/(time momentum)", "F(p, x), mean over a bin of p", {x, momentum}}};
 }
 
-/// Currents that the baths inject, for the quantities that are currents; 0 for the others.
-std::vector<double> injected(const Reservoir& left, const Reservoir& right) {
-  return {0, 0, 0, left.rate + right.rate, left.rate * left.mean_energy() + right.rate * right.mean_energy(),
-          0};
-}
-
-using Values = std::vector<std::vector<double>>;  // of the quantities
+/// Values of a quantity, and of a current also what the baths inject, which both directions add to.
+struct Value {
+  std::vector<double> mean;
+  double injected = 0;
+};
+using Values = std::vector<Value>;
 
 /// -J_U N/(T_N - T_1) [eq. 28].
 double conductivity(const Parameters& parameters, const KineticSolution& solution) {
@@ -130,8 +129,14 @@ Values evaluate(const Parameters& parameters, const KineticSolution& solution,
     kurtosis.insert(kurtosis.end(), {flux.left.kurtosis(), flux.right.kurtosis()});
   }
   const Flux first = solution.at(positions.front());
-  const double kappa = conductivity(parameters, solution);
-  return {density, jump, kurtosis, {first.particle_current()}, {first.energy_current()}, {kappa}};
+  const Reservoir &left = parameters.left, &right = parameters.right;
+  const double energy = left.rate * left.mean_energy() + right.rate * right.mean_energy();
+  return {{density},
+          {jump},
+          {kurtosis},
+          {{first.particle_current()}, left.rate + right.rate},
+          {{first.energy_current()}, energy},
+          {{conductivity(parameters, solution)}}};
 }
 
 /// The quantities at positions and momenta that do not depend on the output: F at p = 0+ and 0-, and up to
@@ -165,7 +170,7 @@ double difference(std::vector<double> a, const std::vector<double>& b) {
 std::vector<double> changes(const std::vector<Values>& orders, std::size_t quantity) {
   std::vector<double> result;
   for (std::size_t k = orders.size() - 1; k > 0 && result.size() < 3; --k)
-    result.push_back(difference(orders[k][quantity], orders[k - 1][quantity]));
+    result.push_back(difference(orders[k][quantity].mean, orders[k - 1][quantity].mean));
   return result;
 }
 
@@ -193,16 +198,16 @@ double remainder(const std::vector<double>& changes, double rate) {
 /// than F over all momenta. Where the series of F has not begun to converge, its error is at most ten times
 /// the last change, which the slowest rate gives, and that of a number at most forty times. Rounding is
 /// relative to the largest value, or to the injected current, as currents may vanish.
-std::vector<double> errors(const Parameters& parameters, const std::vector<Values>& orders, double rounding) {
+std::vector<double> errors(const std::vector<Values>& orders, double rounding) {
   constexpr double slowest = 0.85, slowest_of_numbers = 0.97;
-  const std::vector<double> scales = injected(parameters.left, parameters.right);
   const double rate_of_flux = rate_of(changes(orders, 0), slowest);
   std::vector<double> result;
-  for (std::size_t k = 0; k < scales.size(); ++k) {
+  for (std::size_t k = 0; k < orders.back().size(); ++k) {
+    const auto& [mean, injected] = orders.back()[k];
     const std::vector<double> latest = changes(orders, k);
     const bool converging = k == 0 || rate_of_flux < slowest;
     const double rate = converging ? rate_of_flux : std::max(slowest, rate_of(latest, slowest_of_numbers));
-    result.push_back(remainder(latest, rate) + rounding * std::max(scales[k], largest(orders.back()[k])));
+    result.push_back(remainder(latest, rate) + rounding * std::max(injected, largest(mean)));
   }
   return result;
 }
@@ -211,12 +216,11 @@ std::vector<double> errors(const Parameters& parameters, const std::vector<Value
 /// vanish: their errors are relative to the injected current over 1 + gamma if that is larger.
 double relative_error(const Parameters& parameters, const Values& values, const std::vector<double>& errors) {
   const auto peak = [](const Reservoir& bath) { return HalfFlux{bath, 1, {}}.density(0); };
-  const std::vector<double> currents = injected(parameters.left, parameters.right);
   const double gamma = parameters.problem().gamma;
   double result = std::max(errors[0], errors[1]) / std::max(peak(parameters.left), peak(parameters.right));
-  for (std::size_t k = 0; k < currents.size(); ++k)
-    if (currents[k] > 0)
-      result = std::max(result, errors[k] / std::max(largest(values[k]), currents[k] / (1 + gamma)));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (const auto& [mean, injected] = values[k]; injected > 0)
+      result = std::max(result, errors[k] / std::max(largest(mean), injected / (1 + gamma)));
   return result;
 }
 
@@ -229,14 +233,15 @@ Results results(const Parameters& parameters, const KineticSolution& solution, s
   for (const double x : positions) {
     const Flux flux = solution.at(x);
     for (std::size_t bin = 0; bin < bins.count(); ++bin)
-      values.back().push_back(flux.integral(bins.edge(bin), bins.edge(bin + 1)) / bins.width());
+      values.back().mean.push_back(flux.integral(bins.edge(bin), bins.edge(bin + 1)) / bins.width());
   }
   errors.push_back(errors.front());  // a mean of F has the error of F
   Results results;
   for (std::size_t k = 0; k < what.size(); ++k) {
     std::vector<double> error;
-    for (const double value : values[k]) error.push_back(std::isfinite(value) ? errors[k] : std::nan(""));
-    results.push_back({what[k], values[k], error});
+    for (const double value : values[k].mean)
+      error.push_back(std::isfinite(value) ? errors[k] : std::nan(""));
+    results.push_back({what[k], values[k].mean, error});
   }
   return results;
 }
@@ -263,7 +268,7 @@ RunResult solve(const Parameters& parameters, Progress& progress) {
       outcome.events += static_cast<std::uint64_t>(solution->evaluations());
       orders.push_back(evaluate_for_errors(parameters, *solution));
       if (orders.size() < 3) continue;
-      error = errors(parameters, orders, rounding + solution->iteration_error());
+      error = errors(orders, rounding + solution->iteration_error());
       outcome.achieved_error = relative_error(parameters, orders.back(), error);
       if (outcome.achieved_error > parameters.target_error) continue;
       outcome.convergence = Convergence::reached;
