@@ -113,8 +113,7 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
   };
 
   Group group([=](const Records& records) { return controlled(records, tallies); });
-  group.quantity(tallies, tallies.square);
-  group.quantity(tallies, tallies.centre_square);
+  for (const Tally tally : {tallies.square, tallies.centre_square}) group.quantity(tallies, tally);
   group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.square]); });
   group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);
