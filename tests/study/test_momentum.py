@@ -69,10 +69,9 @@ def test_momentum() -> None:
     heat = 7 * np.array([16, 32.0])
     error = errors_of(np.array([60.0, 90]))[-1] / 90
     assert_points(sizes, ((16, 32), heat, 0.01 * heat), ((16,), [green_kubo], [error * green_kubo]))
-    variances = [time ** (1 + a) for a in (0.3, 0.1, 0.2)]
-    assert_points(noise, *((time, y / 2 / time, errors_of(y) / 2 / time) for y in variances))
-    betas = [np.array([1 + a, 1 + a]) for a in (0.3, 0.25)]
-    assert_points(gases, *((octaves, y, errors_of(y)) for y in betas))
+    for part, growth in ((noise, (0.3, 0.1, 0.2)), (gases, (0.3, 0.25))):
+        betas = [np.array([1 + a, 1 + a]) for a in growth]
+        assert_points(part, *((octaves, y, errors_of(y)) for y in betas))
     ratio = table.ratio.dropna().item()
     assert ratio == pytest.approx(green_kubo / 7 / 16)
     assert f"{ratio:.2f}" in caption

@@ -21,7 +21,7 @@ DASHED = style.DASHES[3]
 LOOKS = {
     "paper": style.points("o", style.BLUE, label=r"$n = {}$, random $\Pi$"),
     "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = {}$, $\Pi = 0$"),
-    "dense": style.points("^", style.GREEN, label="$n = {}$"),
+    "dense": style.points("^", style.GREEN, label=r"$n = {}$, random $\Pi$"),
 }
 STEEP = 0.9  # largest |σ| of the deviations in the caption: beyond it scatterers may still be cold
 

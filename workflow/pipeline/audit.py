@@ -29,8 +29,6 @@ from workflow.pipeline.state import (
     is_made,
 )
 
-TOO_SHORT = ("accuracy",)  # panels with runs that are too short on purpose
-
 
 def faults_of_rendering(panels: Iterable[Panel]) -> list[Fault]:
     """Renders panels again, in a temporary folder, which stays if there are faults."""
@@ -73,9 +71,8 @@ def print_warnings(warnings: Mapping[str, list[str]]) -> None:
     alike = defaultdict(list)
     for path, reasons in warnings.items():
         alike[panel_of(path), "; ".join(reasons)].append(run_of(path))
-    for (panel, reason), runs in sorted(alike.items(), key=lambda item: item[0][0] in TOO_SHORT):
-        purpose = " (too short on purpose)" if panel in TOO_SHORT else ""
-        print(f"warning: {panel}{purpose}: {reason}: {', '.join(runs)}")
+    for (panel, reason), runs in alike.items():
+        print(f"warning: {panel}: {reason}: {', '.join(runs)}")
 
 
 def print_faults(faults: Iterable[Fault]) -> None:

@@ -7,12 +7,12 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from workflow.lib.identity import panel_of
-from workflow.pipeline.audit import TOO_SHORT
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import PYTHON, Panel, Plan, runs_of, warnings_of
@@ -233,10 +233,10 @@ def report_products(plan: Plan, target: str, panels: Sequence[Panel], products: 
     except_ = f", except {', '.join(edited)}" if edited else ""
     if unedited and not (target == "report" and "report" in edited):
         print(DONE[target].format(**words, except_=except_))
-    if found := [path for path in warnings_of(panels) if panel_of(path) not in TOO_SHORT]:
-        number = f"{len(found)} run{'s have' if found[1:] else ' has'}"
+    if found := Counter(map(panel_of, warnings_of(panels))):
+        numbers = ", ".join(f"{number} of {name}" for name, number in found.items())
         few = "; at smoke few replicas are intended" if plan.quality.file == "smoke" else ""
-        print(f"{number} warnings{few}: make status {plan.quality.arguments}")
+        print(f"Runs with warnings: {numbers}{few}: make status {plan.quality.arguments}")
     return int(bool(edited))
 
 

@@ -1,13 +1,13 @@
 """Heat in rings: fig. 8's own gas, with noise in the collisions, and at a density that does not depend on N.
 
-Q is the heat current of a ring, integrated over its cells and a time [eq. 58]; <Q²>/2t per cell is its
-conductivity at this time, in units of T². (a) Fig. 8's conductivity of heat, and the Green-Kubo value of
-rings of its gas at the time in which sound crosses the chain [eq. 61]. (b) In a fraction of the collisions
-the momenta of the particle, its scatterer and a neighbouring one are rotated, which conserves energy and
-momentum [eq. 60], or the momentum of the scatterer is reversed, which conserves energy alone.
+Q is the heat current of a ring, integrated over its cells and a time [eq. 58]; <Q²> ~ t^β. (a) Fig. 8's
+conductivity of heat, and the Green-Kubo value of rings of its gas at the time in which sound crosses the
+chain [eq. 61]. (b) In a fraction of the collisions the momenta of the particle, its scatterer and a
+neighbouring one are rotated, which conserves energy and momentum [eq. 60], or the momentum of the scatterer
+is reversed, which conserves energy alone.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import cycle
 
 import matplotlib.pyplot as plt
@@ -24,8 +24,7 @@ from workflow.physics import run_parameters
 from workflow.study import rings
 
 TITLE = "Conductivity of fig. 8's gas, and heat with and without conserved momentum"
-UNITS = dict.fromkeys(("epsilon", "zeta", "mass", "ratio"), "1") | {"spread": "energy^2 length^2/time"}
-UNITS |= {"green_kubo": "energy/(time temperature)"}
+UNITS = dict.fromkeys(("epsilon", "zeta", "mass", "ratio"), "1") | {"green_kubo": "energy/(time temperature)"}
 
 OWN = "gas-"  # begin of the names of the series of fig. 8's gas
 FIRST = 128  # cells from which the chain is compared with its gas: the ends dominate shorter ones
@@ -72,31 +71,36 @@ def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
     axes.legend(loc="upper left")
 
 
-def draw_noise(axes: Axes, control: pd.DataFrame) -> None:
-    """Plots the conductivity <Q²>/2t by rule and fraction, at the times of the noise."""
-    control = control[control.time <= control[control.rule != "elastic"].time.max()]
+Line = tuple[str, style.Look, pd.DataFrame]  # label, look, and rows with β
+
+
+def noise(control: pd.DataFrame) -> Iterator[Line]:
+    """One gas by rule and fraction, until the last time of the noise."""
+    control = control[control.middle <= control[control.rule != "elastic"].middle.max()]
     for (rule, epsilon), part in control.groupby(["rule", "epsilon"]):
         name, look = NOISE.get(rule, (rule, style.points("P", style.GREEN)))
-        label = f"{name}, {100 * epsilon:g} %" if epsilon else name
-        axes.errorbar(part.time, part.spread, part.spread_error, label=label, **look | LINE)
-    axes.set(xscale="log", yscale="log", xlabel="time $t$", ylabel=r"$\langle Q^2\rangle/2tN$")
-    axes.margins(y=0.4)  # room for the legend
-    style.label_within_decades(axes.yaxis)
-    axes.legend(loc="upper left")
+        yield (f"{name}, {100 * epsilon:g} %" if epsilon else name), look, part
 
 
-def draw_gases(axes: Axes, elastic: pd.DataFrame) -> None:
-    """Plots β of every gas."""
-    elastic = elastic.dropna(subset="middle")
+def gases(elastic: pd.DataFrame) -> Iterator[Line]:
+    """Every gas."""
     for (_, gas), look in zip(elastic.groupby(rings.STATE), cycle(GASES), strict=False):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
-        label = rf"$\zeta = {zeta}$, $M = {mass}$"
-        exponent, error = gas.local_exponent, gas.local_exponent_error
-        axes.errorbar(gas.middle, exponent, error, label=label, **style.points(*look) | LINE)
+        yield rf"$\zeta = {zeta}$, $M = {mass}$", style.points(*look), gas
+
+
+def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
+    """Plots β with guides at diffusion and at 4/3."""
+    for label, look, part in lines:
+        known = part.dropna(subset="middle")
+        error = known.local_exponent_error
+        axes.errorbar(known.middle, known.local_exponent, error, label=label, **look | LINE)
     style.guide_at(axes, 1, "1")
     style.guide_at(axes, 4 / 3, "4/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta$")
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 0.08))  # above the guide at 1
+    low, high = axes.get_ylim()
+    axes.set_ylim(low - 0.1 * (high - low), high + 0.5 * (high - low))  # room for the legend
+    axes.legend(loc="upper right")
 
 
 def caption(sizes: pd.DataFrame) -> str:
@@ -106,8 +110,8 @@ def caption(sizes: pd.DataFrame) -> str:
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
     text = """(a) Conductivity of heat in fig. 8, and of rings of its gas, ζ = 16/N, in equilibrium: the
         Green–Kubo value at the time in which sound crosses the chain. It has no free parameter, and is
-        {ratios} times that of fig. 8. (b) Noise that conserves momentum or breaks it. (c) β of
-        ⟨Q²⟩ ∼ t^β; diffusion has 1. Dashed: guides, not laws."""
+        {ratios} times that of fig. 8. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. Momenta are changed at
+        random in a fraction of the collisions of (b). Dashed: guides, not laws."""
     return Caption(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
 
 
@@ -122,14 +126,12 @@ def draw(results: Sequence[Result]) -> Parts:
     own = [result for result in of_rings if result.series.startswith(OWN)]
     sizes = compare([result for result in results if result not in of_rings], own)
     table = rings.tabulate([result for result in of_rings if result not in own])
-    for column in ("spread", "spread_error"):
-        table[column] = table[column.replace("spread", "mean_square_heat")] / (2 * table.time)
     broken = table[table.rule == "reversal"].iloc[-1]  # of the largest σ
     control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
     figure, axes = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
     draw_own_gas(axes[0], sizes)
-    draw_noise(axes[1], control)
-    draw_gases(axes[2], table[table.rule == "elastic"])
+    draw_exponents(axes[1], noise(control))
+    draw_exponents(axes[2], gases(table[table.rule == "elastic"]))
     zeta, mass = rings.texts(broken.zeta, broken.mass)
     titles = "fig. 8 and its own gas", rf"noise, $\zeta = {zeta}$, $M = {mass}$", "gases of one density"
     for panel, text in zip(axes, titles, strict=True):

@@ -110,7 +110,7 @@ def draw_row(axes: Axes, y: int, row: pd.Series) -> None:
 
 
 def label_rows(axes: Axes, table: pd.DataFrame) -> None:
-    """Statements at the left of the frame, those as meant in italics, with the figures of the paper."""
+    """Statements at the left of the frame, those as meant in italics, with their numbers and figures."""
     frame = axes.get_yaxis_transform()
     across: style.Look = {"transform": frame, "va": "center", "size": 7.5, "clip_on": False}
     line: style.Look = {"transform": frame, "color": "0.8", "linewidth": 0.5, "clip_on": False}
@@ -121,10 +121,11 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
             axes.text(-1.58, y, group, weight="bold", **across)
             axes.plot([-1.58, 1.06], [y - 0.5] * 2, **line)
         former, text = group, mathtext(row.statement)
+        axes.text(-1.42, y, row.claim, color="0.45", **across)
         if row.kind == PRINTED:
-            axes.text(-1.38, y, text, **across)
+            axes.text(-1.25, y, text, **across)
         else:
-            axes.text(-1.38, y, f"{row.kind}: {text}", style="italic", **across)
+            axes.text(-1.25, y, f"{row.kind}: {text}", style="italic", **across)
 
 
 def caption(table: pd.DataFrame) -> str:
@@ -132,7 +133,8 @@ def caption(table: pd.DataFrame) -> str:
     return f"""
         Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
         {nearly} nearly, {fail} do not, {undecided} are open. Bars: joint 95 %
-        confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly."""
+        confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly. The unit is
+        half the band, or half the bar if the band has one edge."""
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -140,17 +142,15 @@ def draw(results: Sequence[Result]) -> Parts:
 
 
 def plotted(table: pd.DataFrame) -> Parts:
-    height = ROW * len(table) + 0.85
+    height = ROW * len(table) + 0.72
     figure = plt.figure(figsize=(2 * style.COLUMN, height), layout="none")
-    axes = figure.add_axes((0.602, 0.55 / height, 0.375, ROW * len(table) / height))
+    axes = figure.add_axes((0.602, 0.42 / height, 0.375, ROW * len(table) / height))
     axes.axvspan(-1, 1, **style.WINDOW)
     for y, row in table.iterrows():
         draw_row(axes, y, row)
     label_rows(axes, table)
     axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
-    axes.set_xlabel(
-        "acceptance band: −1 to 1; if it has one edge:\ndistance from it in half intervals", size=8
-    )
+    axes.set_xlabel("accepted: −1 to 1, or beyond one edge (grey)", size=8)
     axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
     looks = [look_of(outcome.value, PRINTED) | {"label": outcome.value} for outcome in Outcome]
     looks.append(look_of(Outcome.REPRODUCED, MEANT) | {"label": f"hollow: {MEANT}"})
