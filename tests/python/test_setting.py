@@ -55,7 +55,7 @@ def text_of(panel: Panel, results: Sequence[Result]) -> str:
     """The sentences of the renderer. Raises TheoryError."""
     draw = script_of(panel).draw
     if isinstance(draw, Plot):
-        setting.require_one_value(results, panel.script, draw.apart)
+        setting.require_one_value(results, panel.script, draw.varied)
     return setting.sentences(results, panel.script)
 
 
@@ -186,7 +186,7 @@ def test_extreme_chains_are_compared_where_their_current_is_known(changed: dict[
     ("script", "name"),
     [("fig08", "sigma"), ("fig04", "sigma"), ("fig03_inset", "nu_left"), ("fig06", "particles_per_cell")],
 )
-def test_a_panel_plots_one_value_of_what_it_does_not_tell_apart(script: str, name: str) -> None:
+def test_a_panel_plots_one_value_of_each_other_parameter(script: str, name: str) -> None:
     """Detected mistakes: slopes between runs of different sigma; a theory for other parameters."""
     runs = [Result(ROOT, {name: value}, {}, {}, parameter_roles={name: "physics"}) for value in (1, 2)]
     with pytest.raises(TheoryError, match=rf"plots one {name.replace('_', '-')}, and the runs have 1 and 2"):

@@ -72,7 +72,7 @@ def caption(chain: Result) -> str:
     return Caption(text, spacing=run_parameters.spacing(chain)[1], first=first, last=last)
 
 
-@plots("unit-spacing unit-chain", apart="cell_length")
+@plots("unit-spacing unit-chain", varied="cell_length")
 def draw(results: Sequence[Result]) -> Parts:
     results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)

@@ -87,7 +87,7 @@ def caption(chain: Result) -> str:
     return Caption(text, spacing=spacing, slope=slope, curvature=curvature, height=height)
 
 
-@plots("unit-spacing unit-chain", apart="cell_length")
+@plots("unit-spacing unit-chain", varied="cell_length")
 def draw(results: Sequence[Result]) -> Parts:
     results = run_parameters.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)

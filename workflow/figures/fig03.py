@@ -72,7 +72,7 @@ def caption(results: Sequence[Result], largest: float) -> str:
     return Caption(text, left=left, right=right, largest=f"{largest:.2g}")
 
 
-@plots("paper equal", apart="temperature_left temperature_right")
+@plots("paper equal", varied="temperature_left temperature_right")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
     shown = reach(results[0]["flux_density"])

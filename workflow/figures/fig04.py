@@ -141,7 +141,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
     return Caption(text, largest=largest)
 
 
-@plots("rare kinetic deterministic equal mean-field mean-field-equal", apart="nu_left nu_right")
+@plots("rare kinetic deterministic equal mean-field mean-field-equal", varied="nu_left nu_right")
 def draw(results: Sequence[Result]) -> Parts:
     table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]

@@ -79,7 +79,7 @@ def caption(table: pd.DataFrame) -> str:
     return Caption(text, steep=format_number(STEEP), density=density, **numbers)
 
 
-@plots("paper zero-momentum dense", apart="particles_per_cell")
+@plots("paper zero-momentum dense", varied="particles_per_cell")
 def draw(results: Sequence[Result]) -> Parts:
     require("the law arccos(σ)/π", results)
     table = tabulate(results)

@@ -62,7 +62,7 @@ def caption(results: Sequence[Result]) -> str:
     return Caption(text, alpha=format_quantity(results[0]["alpha"]), without=without[0] if without else None)
 
 
-@plots("all zero-momentum large", apart="cells")
+@plots("all zero-momentum large", varied="cells")
 def draw(results: Sequence[Result]) -> Parts:
     results = sorted(results, key=lambda result: (zero(result), result.parameters["cells"]))
     tables = [tabulate(result) for result in results]

@@ -25,12 +25,13 @@ Draw = Callable[[Sequence[Result]], Parts]
 
 @dataclass(frozen=True)
 class Plot:
-    """draw() of a script that plots series by their names. The caption names others of the panel. apart:
-    parameters that the script tells apart, besides those of which the paper has several values."""
+    """draw() of a script that plots series by their names. The caption names others of the panel.
+    varied: parameters that may differ between plotted runs, besides those of which the paper has several
+    values."""
 
     function: Draw
     series: tuple[str, ...]
-    apart: tuple[str, ...] = ()
+    varied: tuple[str, ...] = ()
 
     def shown(self, results: Iterable[Result]) -> list[Result]:
         """The results of these series; all if none of them is given, as by a panel of one's own with this
@@ -48,10 +49,10 @@ class Plot:
         return self.function(self.shown(results))
 
 
-def plots(series: str, apart: str = "") -> Callable[[Draw], Plot]:
-    """Decorator of draw(), which then takes the results of these series only. Names of series, and of
-    parameters that are told apart, have blanks between."""
-    return lambda draw: Plot(draw, tuple(series.split()), tuple(apart.split()))
+def plots(series: str, varied: str = "") -> Callable[[Draw], Plot]:
+    """Decorator of draw(), which then takes the results of these series only. Names of series and
+    of `varied` parameters are separated by blanks."""
+    return lambda draw: Plot(draw, tuple(series.split()), tuple(varied.split()))
 
 
 class TheoryError(ValueError):

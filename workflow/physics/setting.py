@@ -64,12 +64,12 @@ def sentences(results: Sequence[Result], script: str) -> str:
     return f"{sentence} Not the paper's: {'; '.join(others)}.".lstrip() if others else sentence
 
 
-def require_one_value(results: Sequence[Result], script: str, apart: Collection[str]) -> None:
-    """Raises TheoryError if runs differ in a parameter in which neither the paper's do nor those that the
-    script tells apart: they would be taken for one another, and theories for those of other parameters."""
+def require_one_value(results: Sequence[Result], script: str, varied: Collection[str]) -> None:
+    """Raises TheoryError if runs differ in a parameter that is not in `varied` and has one value in the
+    paper: one run would be taken for another, and theories for those of other parameters."""
     paper = stated(script)
-    varying = {name for name, values in paper.items() if values == AXIS or len(values) > 1}
-    for name in SYMBOLS.keys() - varying - {*apart} if paper else ():
+    several = {name for name, values in paper.items() if values == AXIS or len(values) > 1}
+    for name in SYMBOLS.keys() - several - {*varied} if paper else ():
         values = {found[name] for result in results if name in (found := model(result, {}))}
         if len(values) > 1:
             runs = f"{name.replace('_', '-')}, and the runs have {listed(sorted(map(str, values)))}"

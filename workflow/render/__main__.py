@@ -55,7 +55,7 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     shown, others = loaded, []
     if isinstance(module.draw, Plot):
         shown, others = module.draw.shown(loaded), module.draw.not_shown(loaded)
-        setting.require_one_value(shown, script, module.draw.apart)
+        setting.require_one_value(shown, script, module.draw.varied)
     style.apply()
     figure, table, caption = module.draw(loaded)
     units = getattr(module, "UNITS", {})
