@@ -19,8 +19,8 @@ figures:  ## Build, simulate and render the paper's figures: figures/QUALITY/*.p
 panel:  ## One panel, PANEL=fig05
 report:  ## The paper's claims against the results: figures/QUALITY/report.html
 gallery:  ## The report of the release, docs/gallery, from the results at QUALITY
-audit:  ## Check every result and figure against sources, parameters and packages
-status:  ## Fresh, stale (why) or missing
+audit:  ## Check every file, and render every figure again and compare
+status:  ## Current, stale (why), edited or missing files
 verify:  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare values
 provenance:  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
 build:  ## The programs, in build/bin

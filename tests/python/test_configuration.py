@@ -9,8 +9,8 @@ from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import Plan, runs_of
 from workflow.pipeline.program import require_valid
 
-PAPER = """panels:
-  model: {}
+PAPER = """# two lines
+panels:
   mu:
     program: persistence
     common:

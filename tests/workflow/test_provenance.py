@@ -18,7 +18,7 @@ Edit = Callable[[Project], object]
 MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"
 FEW = "data/smoke/energy/few.*.h5"
 RECORD, TABLE = "figures/smoke/mu.*.json", "figures/smoke/mu.csv"
-LOADED = "from workflow import load_panel; print(*load_panel('mu', quality='smoke'))"
+LOADED = "from workflow.pipeline.load_panel import load_panel; print(*load_panel('mu', quality='smoke'))"
 
 
 def edit_value(project: Project) -> None:

@@ -1,1 +1,1 @@
-"""Library of the scripts: loading, units, tables, fits, style, captions, saving."""
+"""Library of the scripts: loading, units, tables, fits, style, captions."""

@@ -47,19 +47,12 @@ def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
 
 
 def as_text(table: pd.DataFrame, digits: int = 12) -> str:
-    """The table as CSV, with so many digits. In a column with fractions whole numbers have a point, too, and
-    labels among which some are numbers begin with the name of the column, as gamma=1 and gamma=N: programs
-    that read the text find the type of a column by its first rows. Raises TableError if the text would not
-    be read as the table."""
-
-    def number(value: float) -> str:
-        text = f"{value:.{digits}g}"
-        return f"{text}.0" if text.removeprefix("-").isdigit() else text
-
+    """The table as CSV, with so many digits. Labels among which some are numbers begin with the name of the
+    column, as gamma=1 and gamma=N. Raises TableError if the text would not be read as the table."""
     table = table.infer_objects()
     for name in table.columns[[_has_number(cells) for _, cells in table.items()]]:
         table = table.assign(**{name: [_named(name, cell) for cell in table[name]]})
-    text = table.to_csv(index=False, float_format=number, lineterminator="\n")
+    text = table.to_csv(index=False, float_format=f"%.{digits}g", lineterminator="\n")
     if table.index.name is not None or not is_integer_dtype(table.index):
         raise TableError("the index of the table is not written: return table.reset_index()")
     try:

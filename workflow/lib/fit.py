@@ -1,5 +1,4 @@
-"""Numbers with errors as text, and slopes between independent points. Points whose value is NaN are
-skipped."""
+"""Slopes between independent points. Points whose value is NaN are skipped."""
 
 import numpy as np
 from numpy.typing import ArrayLike

@@ -285,7 +285,7 @@ class Plan:
         """Raises ConfigurationError for a panel without runs, or with runs or inputs that do not exist."""
         for name, panel in document.content["panels"].items():
             keys = ("panels", name)
-            if "series" in panel and not planned[name].runs and "uses" not in panel:
+            if not planned[name].runs and "uses" not in panel:
                 text = f"no runs at quality {self.quality.name}, and no panel whose runs it uses"
                 raise ConfigurationError(document.complaint(keys, text))
             with_runs = {other for other, one in planned.items() if one.runs and other != name}

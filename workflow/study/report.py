@@ -15,15 +15,15 @@ import jinja2
 import pandas as pd
 
 from workflow.lib.columns import TableError, as_text
-from workflow.lib.identity import ROOT, panel_of
-from workflow.lib.load import FormatError, cpu_seconds, load
+from workflow.lib.identity import ROOT
+from workflow.lib.load import FormatError, load
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import Panel, Plan, runs_of
 from workflow.render.files import format_os_error, write_atomically
 from workflow.render.record import identity_line, read_record
 from workflow.render.save import commit, write_product
 from workflow.study import typeset
-from workflow.study.judge import PRINTED, Judgement, changed, judge_all, label
+from workflow.study.judge import PRINTED, Judgement, changed, judge_all
 from workflow.study.results import Results
 from workflow.study.verdict import Outcome
 
@@ -57,28 +57,23 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
         counts={outcome.name: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
         rows=rows,
         figures=figures,
-        panels=[context(panel, root, release=release) for panel in plan.reported],
+        panels=[context(panel, root) for panel in plan.reported],
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
     return page.encode()
 
 
-def context(panel: Panel, root: Path, *, release: bool) -> dict[str, Any]:
-    """A panel with its picture, and what it is made from, for the template. Raises OSError."""
+def context(panel: Panel, root: Path) -> dict[str, Any]:
+    """A panel with its picture for the template. Raises OSError."""
     record = read_record(root / panel.record_path)
     content = (root / f"{panel.stem}.svg").read_bytes()
-    width, runs = inches(content), {} if release else runs_of([panel])
+    width = inches(content)
     return record | {
         "name": panel.name,
         "study": panel.study,
         "size": "narrow" if width <= NARROW else "wide",
         "width": round(width * INCH),
         "picture": base64.b64encode(content).decode(),
-        "runs": [
-            (panel_of(path), f"{run.program} {run.options_text}", cpu_seconds(root / path))
-            for path, run in runs.items()
-        ],
-        "sources": [*record["sources"]],
     }
 
 
@@ -103,7 +98,6 @@ def shown(judgement: Judgement) -> dict[str, Any]:
         "anchor": anchor,
         "ids": [anchor, *others] if printed else [anchor],
         "name": row["numbers"] if printed else f"{row['numbers']} {row['kind']}",
-        "short": label(row),
         "outcome": verdict.outcome,
         "style": verdict.outcome.name.lower(),
         "sign": SIGNS[verdict.outcome],
