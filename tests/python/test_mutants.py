@@ -1,5 +1,6 @@
-"""Mistakes that tests in C++ must find: each patch of tests/mutants is applied to a copy of the sources, whose
-tests then fail. Its first line states the mistake and, after a semicolon, the source and the names of the tests.
+"""Mistakes that tests in C++ must find: each patch of tests/mutants is applied to a copy of the sources,
+whose tests then fail. Its first line states the mistake and, after a semicolon, the source and the names of
+the tests.
 
 The copy is built once in a folder of its own; for a patch only what it changes is compiled.
 """
