@@ -25,7 +25,7 @@ def lock(folder: Path) -> int:
         if process == str(os.getppid()):
             return file
         raise BlockingIOError(
-            f"another command of make or Snakemake, process {process}, is at work in "
+            f"another command of make or Snakemake, started by process {process}, is at work in "
             f"{folder.absolute().parent}: wait for it, or stop it"
         ) from error
     os.truncate(file, 0)

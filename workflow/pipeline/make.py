@@ -133,10 +133,9 @@ class Progress:
 
 
 def execute(words: Sequence[str], progress: Progress, queue: Queue | None = None) -> int:
-    """Runs Snakemake in a process group of its own, to which signals are passed on: programs write
-    checkpoints.
-    With the queue of a cluster, it ends when all results exist. Returns its exit status, 128 and the
-    number of a signal if one has come."""
+    """Runs Snakemake in a process group of its own, to which signals are passed on, so that programs write
+    checkpoints. With the queue of a cluster, it ends when all results exist. Returns its exit status, or 128
+    and the number of a signal that has come."""
     LOG.parent.mkdir(parents=True, exist_ok=True)
     with LOG.open("w") as log:
         command = [PYTHON, "-m", "snakemake", *words]
@@ -195,8 +194,7 @@ def passing_signals(process: "subprocess.Popen[bytes]") -> Iterator[list[int]]:
 
 
 def report_failure(products: Sequence[Panel]) -> None:
-    """Prints a line for each product that is not made, with the reason from the log of a result or its
-    own."""
+    """Prints a line for each product that is not made, with the reason from a log."""
     failed, without = [product for product in products if product.is_incomplete()], []
     for product in failed:
         logs = [log_of(path) for path in missing(product.parents) if path.endswith(".h5")]

@@ -1,10 +1,9 @@
 """Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
 
 First a summary: whether the file is unmodified, and current here; the panel and the command that makes it.
-Then
-the results and files that it is made from. Exit status: 0 if the file is unmodified, 1 if it is edited or has
-no metadata, 2 if there is no such file, 3 if it is of other sources or results, so that its bytes are not
-checked.
+Then the results and files that it is made from. Exit status: 0 if the file is unmodified, 1 if it is edited
+or has no metadata, 2 if there is no such file, 3 if it is of other sources or results, so that its bytes are
+not checked.
 """
 
 import textwrap

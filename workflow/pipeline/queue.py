@@ -18,9 +18,8 @@ class Queue:
 
     @property
     def is_lost(self) -> bool:
-        """Whether Snakemake waits in vain for jobs that Slurm has forgotten, which it does soon after
-        their end
-        without accounting, or that a failing squeue has made Snakemake forget: at three looks in succession
+        """Whether Snakemake waits in vain for jobs that Slurm has forgotten, as it does soon after their end
+        without accounting, or that Snakemake has forgotten as squeue failed: at three looks in succession
         there were no jobs, not even ended ones, and Snakemake had printed nothing."""
         return self._silent > 1
 
