@@ -166,7 +166,7 @@ def test_front_of_free_flight(measure: Measure) -> None:
 
 def mean_flight(cells: int, probability: float) -> float:
     """Geometric mean of the cells of a slow particle's flight, each flight counted by its length: from a
-    scatterer or, half a cell before the first one, from an opening, to a scatterer or to the other opening."""
+    scatterer or, half a cell before the first one, from an opening, to a scatterer or the other opening."""
     k = np.arange(1, cells + 1)
     scattered = probability * (1 - probability) ** (k - 1)
     lengths, rates = [k - 0.5, [cells]], [scattered, [(1 - probability) ** cells]]
