@@ -88,7 +88,7 @@ def drawn(script: str, runs: list[str]) -> Panel:
         points(path.vertices for one in axes.collections for path in one.get_paths()) for axes in figure.axes
     ]
     return {
-        "caption": words.caption,
+        "caption": str(words),
         "lines": lines,
         "error bars and bands": bars,
         **{name: fingerprint(cells) for name, cells in table.items()},

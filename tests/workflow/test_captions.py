@@ -1,6 +1,5 @@
-"""Numbers of captions and of labels are those of the results, and the record has them by name."""
+"""Numbers of captions and of labels are those of the results."""
 
-import json
 import re
 from dataclasses import replace
 from functools import cache
@@ -15,7 +14,7 @@ from matplotlib.text import Text
 
 from tests.workflow.test_tables import OF_RUNS, PLAN, script_of, units_and_caption
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.load import Result, load
 from workflow.lib.text import format_number
 from workflow.physics.setting import SYMBOLS
@@ -105,19 +104,12 @@ def test_every_number_of_captions_and_labels_is_that_of_the_results(smoke: Path,
     assert literal == set()
 
 
-@pytest.mark.parametrize("panel", OF_RUNS)
-def test_records_have_the_numbers_of_the_captions(smoke: Path, panel: str) -> None:
-    record = json.loads((smoke / PLAN[panel].record_path).read_text())
-    assert all(text in record["caption"] for text in record["numbers"].values())
-    assert record["numbers"] or panel == "momentum"
-
-
 def test_a_sentence_without_its_number_is_left_out() -> None:
     """Detected mistake: a sentence ends with `fig.`"""
     text = "It is\n    {first}. Later it is {last}, {first} in fig. 8 before. The end."
     whole = "It is 1(2). Later it is 3, 1(2) in fig. 8 before. The end."
-    assert Caption(text, first="1(2)", last="3") == whole
-    caption = Caption(text, first="1(2)", last=None)
-    assert (caption, caption.numbers) == ("It is 1(2). The end.", {"first": "1(2)"})
+    assert fill(text, first="1(2)", last="3") == whole
+    caption = fill(text, first="1(2)", last=None)
+    assert caption == "It is 1(2). The end."
     with pytest.raises(KeyError, match="frist"):
-        Caption("It is {frist}.", first="1")
+        fill("It is {frist}.", first="1")

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import NoValueError, Parts
 from workflow.lib.identity import panel_of
 from workflow.lib.load import FormatError, Result, cost_file, cpu_seconds
@@ -159,7 +159,7 @@ def caption(table: pd.DataFrame, lines: pd.DataFrame) -> str:
         and of the kinetic equation. Dashed (N = {biased}): bias of chains that relax for too short a
         time, which no number of replicas reduces. (b) At γ = {gamma} an error of 1 % of κ costs {cost}."""
     biased = listed(f"{size:g}" for size in sizes) if len(sizes) else None
-    return Caption(text, biased=biased, cost=ends, gamma=kappa.gamma.iloc[0] if at else None)
+    return fill(text, biased=biased, cost=ends, gamma=kappa.gamma.iloc[0] if at else None)
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_quantity
@@ -69,7 +69,7 @@ def caption(chain: Result) -> str:
         middle: logarithmic bins, with p₀(t) (circles). At λ = {spacing} the height above p₀ is {first} at
         the first time and {last} at the last. Bottom: p₀ divided by λ/(et), its value for a stationary
         flux."""
-    return Caption(text, spacing=run_parameters.spacing(chain)[1], first=first, last=last)
+    return fill(text, spacing=run_parameters.spacing(chain)[1], first=first, last=last)
 
 
 @plots("unit-spacing unit-chain", varied="cell_length")

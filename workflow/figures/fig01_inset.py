@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.fit import local_slopes
 from workflow.lib.load import Result
@@ -84,7 +84,7 @@ def caption(chain: Result) -> str:
     slope = format_quantity(chain["log_slope"]) if straight(chain) else None
     curvature = None if slope else format_quantity(chain["log_curvature"])
     spacing, height = run_parameters.spacing(chain)[1], format_quantity(chain["plateau"], -1)
-    return Caption(text, spacing=spacing, slope=slope, curvature=curvature, height=height)
+    return fill(text, spacing=spacing, slope=slope, curvature=curvature, height=height)
 
 
 @plots("unit-spacing unit-chain", varied="cell_length")

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_quantity, listed
@@ -39,7 +39,7 @@ def caption(results: Sequence[Result]) -> str:
     text = """The paper finds that particles accumulate at the ends of the chain, more at γ = 1. (a)
         Particles per cell, with lines through the bulk (shaded). (b) The density over these lines: an end
         cell exceeds its line by at most {excess}."""
-    return Caption(text, excess=listed(excess))
+    return fill(text, excess=listed(excess))
 
 
 @plots("deterministic rare")

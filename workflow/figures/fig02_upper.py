@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_quantity, listed
@@ -40,7 +40,7 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     text = """The paper finds one temperature of scatterers and particles, which does not reach the baths.
         (a) Points: scatterers; lines: particles. The first scatterer has {first}. (b) Their difference,
         measured in the same runs, is largest at γ = {gamma}."""
-    return Caption(text, first=first, gamma=far.gamma)
+    return fill(text, first=first, gamma=far.gamma)
 
 
 @plots("deterministic rare")

@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_number
@@ -69,7 +69,7 @@ def caption(results: Sequence[Result], largest: float) -> str:
         jumps by {{left}} and {{right}}. (b) Each half divided by a Gaussian of its own rate and second
         moment, where F exceeds {100 * OFTEN:g} % of its maximum: up to {{largest}} % off. Dotted:
         equal temperatures, unequal rates."""
-    return Caption(text, left=left, right=right, largest=f"{largest:.2g}")
+    return fill(text, left=left, right=right, largest=f"{largest:.2g}")
 
 
 @plots("paper equal", varied="temperature_left temperature_right")

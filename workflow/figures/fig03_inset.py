@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots, require
 from workflow.lib.load import Result
 from workflow.lib.text import format_with_error, listed
@@ -71,7 +71,7 @@ def caption(table: pd.DataFrame) -> str:
     text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and {longest} in the
         longest chain. (a), (b) Particles that leave (points); lines: kinetic equation of N scatterers.
         (c) As p → 0, if ∫F dp is 1: {largest}."""
-    return Caption(text, largest=largest, **bounds)
+    return fill(text, largest=largest, **bounds)
 
 
 @plots("simulation continuum mean-field")

@@ -14,7 +14,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_with_error
@@ -138,7 +138,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
         lines: kinetic equation. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
         at p = 0, of the chain and by the kinetic equation (bars)."""
     largest = f"{math.ceil(10 * far) / 10:g}" if math.isfinite(far) else None
-    return Caption(text, largest=largest)
+    return fill(text, largest=largest)
 
 
 @plots("rare kinetic deterministic equal mean-field mean-field-equal", varied="nu_left nu_right")

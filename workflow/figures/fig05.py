@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots, require
 from workflow.lib.load import Result
 from workflow.lib.text import format_number, format_with_error, listed
@@ -76,7 +76,7 @@ def caption(table: pd.DataFrame) -> str:
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}
-    return Caption(text, steep=format_number(STEEP), density=density, **numbers)
+    return fill(text, steep=format_number(STEEP), density=density, **numbers)
 
 
 @plots("paper zero-momentum dense", varied="particles_per_cell")

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_number, format_quantity, listed
@@ -91,7 +91,7 @@ def caption(results: Sequence[Result]) -> str:
     text = f"""The paper finds that the density Ψ of waiting times τ has the exponents {powers}. Fits over
         the shaded times give {{exponents}}. Below: Ψ divided by these powers. Line: exact, σ = 0, n → ∞.
         Open symbols: errors above {100 * UNSURE:.0f} %."""
-    return Caption(text, exponents=listed(format_quantity(result["exponent"]) for result in results))
+    return fill(text, exponents=listed(format_quantity(result["exponent"]) for result in results))
 
 
 @plots("all")

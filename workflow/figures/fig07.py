@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.lines import Line2D
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_quantity
@@ -59,7 +59,7 @@ def caption(results: Sequence[Result]) -> str:
     text = """The paper finds ⟨x²⟩ ∼ t^α with α slightly below 2 for a tagged particle. Here α is {alpha}
         in the shaded window. At zero total momentum it is {without}. Lines: mean square displacement of
         the centre of mass, by which the ring drifts. (b) Local exponents. Dashed guides are not fits."""
-    return Caption(text, alpha=format_quantity(results[0]["alpha"]), without=without[0] if without else None)
+    return fill(text, alpha=format_quantity(results[0]["alpha"]), without=without[0] if without else None)
 
 
 @plots("all zero-momentum large", varied="cells")

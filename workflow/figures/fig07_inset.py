@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_number, format_with_error
@@ -72,7 +72,7 @@ def caption(shown: pd.DataFrame) -> str:
     text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) At the paper's random total
         momentum α is at least {least} for σ ≠ 0. (b) At zero total momentum, without drift of the ring,
         it is at most {most}. Diamonds: random directions, as in the paper's footnote."""
-    return Caption(text, least=least, most=most)
+    return fill(text, least=least, most=most)
 
 
 @plots("all zero-momentum aged random")

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.fit import local_exponents
 from workflow.lib.load import Result
@@ -84,7 +84,7 @@ def caption(table: pd.DataFrame) -> str:
         (grey, not fits). (b) Local exponents; at γ = {gamma} at most {largest}, and {last} in the end.
         Open symbols: heat J_U − T J_n alone. Smaller errors than the symbols are not visible."""
     largest = texts[int(known.exponent_to_next.argmax())] if texts else None
-    return Caption(text, gamma=gamma, largest=largest, last=texts[-1] if texts else None)
+    return fill(text, gamma=gamma, largest=largest, last=texts[-1] if texts else None)
 
 
 @plots("deterministic deterministic-large rare rare-small mean-field")

@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_quantity
@@ -102,7 +102,7 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
         cell reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
         {named_start(rest).capitalize()}, the speed is {{first}} cells per time at first and {{last}} at
         last. {faint}Dashed lines: (c) constant first speed{sound}."""
-    return Caption(text, first=first, last=last, spike=spike)
+    return fill(text, first=first, last=last, spike=spike)
 
 
 @plots("rest gaussian")

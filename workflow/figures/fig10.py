@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds
 from workflow.lib.load import Result
 from workflow.lib.text import format_with_error, listed
@@ -101,7 +101,7 @@ def caption(results: Sequence[Result]) -> str:
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
         Exponents fitted over successive octaves of time; {named_start(rest)} the first is {{first}}. The
         last is {{last}}. Dashed guides, not fits: {name} {{laws}}."""
-    return Caption(text, first=first, last=last if len(found) > 1 else None, laws=laws)
+    return fill(text, first=first, last=last if len(found) > 1 else None, laws=laws)
 
 
 def draw(results: Sequence[Result]) -> Parts:

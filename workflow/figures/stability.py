@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, TheoryError, plots, require
 from workflow.lib.load import Result
 from workflow.lib.text import scientific, scientific_in_tex
@@ -120,7 +120,7 @@ def caption(walks: pd.DataFrame, known: pd.DataFrame) -> str:
         {{score}} standard errors (grey bars: {BAR}). Dotted: rounding error of the
         energy. (b) Relative changes by rounding. {{collisions}} collisions change the energy by
         {{elastic}} as computed here. The paper's formula changes it by {{printed}}."""
-    return Caption(text, score=f"{score:.1f}", collisions=scientific(walks.collisions.max()), **changes)
+    return fill(text, score=f"{score:.1f}", collisions=scientific(walks.collisions.max()), **changes)
 
 
 @plots(f"rounding {' '.join(LIMITS)}")

@@ -1,7 +1,7 @@
 """Captions: numbers with names, and what the renderer adds to any of them."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from string import Formatter
 
 from workflow.lib.load import NOT_STATIONARY, NOT_TESTED, UNDEFINED, Result
@@ -12,21 +12,13 @@ WARNINGS = {UNDEFINED: "Without a value", NOT_STATIONARY: "Not stationary"}
 WARNINGS |= {NOT_TESTED: "Stationarity not tested, too few replicas"}
 
 
-class Caption(str):
-    """A text with named numbers, as "The slope is {slope}.", which the record of the panel has. Sentences
-    without one of their numbers, which is then None, are left out."""
-
-    numbers: Mapping[str, str]
-
-    def __new__(cls, text: str, **numbers: str | None) -> "Caption":
-        known = {name: number for name, number in numbers.items() if number is not None}
-        sentences = re.split(r"(?<=\.)\s+(?=[A-Z({])", " ".join(text.split()))
-        missing = numbers.keys() - known.keys()
-        names = {one: {name for _, name, *_ in Formatter().parse(one)} for one in sentences}
-        kept = [sentence.format(**known) for sentence in sentences if not missing & names[sentence]]
-        caption = super().__new__(cls, " ".join(kept))
-        caption.numbers = known
-        return caption
+def fill(text: str, **numbers: str | None) -> str:
+    """A text with named numbers, as "The slope is {slope}.", as one paragraph. Sentences without one of their
+    numbers, which is then None, are left out."""
+    missing = {name for name, number in numbers.items() if number is None}
+    sentences = re.split(r"(?<=\.)\s+(?=[A-Z({])", " ".join(text.split()))
+    names = {one: {name for _, name, *_ in Formatter().parse(one)} for one in sentences}
+    return " ".join(one.format(**numbers) for one in sentences if not missing & names[one])
 
 
 def quoted(names: Iterable[str]) -> str:

@@ -16,8 +16,7 @@ from matplotlib.figure import Figure
 from workflow.lib.load import Result
 from workflow.lib.text import listed
 
-# Figure, table of the plotted numbers, and caption as one paragraph of plain text; a Caption (caption.py) has
-# named numbers.
+# Figure, table of the plotted numbers, and caption, plain text.
 Parts = tuple[Figure, pd.DataFrame, str]
 
 Draw = Callable[[Sequence[Result]], Parts]

@@ -50,7 +50,7 @@ def render(
 
 
 def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
-    """Figure, table as CSV, title and caption of a panel from its script. Raises REFUSED."""
+    """Figure, table as CSV, and text of a panel from its script. Raises REFUSED."""
     module = import_module(script.removesuffix(".py").replace("/", "."))
     shown, others = loaded, []
     if isinstance(module.draw, Plot):
@@ -62,9 +62,8 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     errors = {f"{column}_error": text for column, text in units.items()}
     csv = as_csv(table, inherited(loaded) | errors | units)
     added = [f"Not shown: {quoted(others)}."] if others else []
-    added += [*outside(figure), *warnings(shown), setting.sentences(shown, script)]
-    whole = " ".join(" ".join([caption, *added]).split())
-    return figure, csv, Text(module.TITLE, whole, getattr(caption, "numbers", {}))
+    whole = " ".join([caption, *added, *outside(figure), *warnings(shown)])
+    return figure, csv, Text(module.TITLE, " ".join(whole.split()), setting.sentences(shown, script))
 
 
 def load_all(paths: Sequence[Path]) -> list[Result]:

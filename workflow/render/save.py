@@ -30,8 +30,11 @@ RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  #
 @dataclass(frozen=True)
 class Text:
     title: str
-    caption: str  # text without line breaks
-    numbers: Mapping[str, str]  # of the caption, by their names
+    caption: str  # without line breaks
+    parameters: str  # of the plotted runs, in sentences
+
+    def __str__(self) -> str:
+        return f"{self.caption} {self.parameters}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -52,10 +55,10 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
             "Creator": CREATOR,
             "Producer": CREATOR,
             "Subject": line,
-            "Keywords": text.caption,
+            "Keywords": str(text),
             "CreationDate": None,
         },
-        "png": {"Title": text.title, "Software": CREATOR, "Description": line, "Comment": text.caption},
+        "png": {"Title": text.title, "Software": CREATOR, "Description": line, "Comment": str(text)},
         "svg": {"Title": text.title, "Creator": CREATOR, "Description": line, "Date": None},
     }
     contents = {}
@@ -68,7 +71,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
             contents[kind] = _picture(figure, kind, metadata)
     units, numbers = table.split("\n", maxsplit=1)
     contents["csv"] = "\n".join(
-        [f"# {text.title}", units, f"# caption: {text.caption}", f"# {line}", numbers]
+        [f"# {text.title}", units, f"# caption: {text}", f"# {line}", numbers]
     ).encode()
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
     record |= {"commit": commit(), "renderer": renderer(), "warnings": dict(parents.warnings)}

@@ -16,7 +16,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import Caption
+from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, plots
 from workflow.lib.load import Result
 from workflow.lib.text import format_with_error, listed
@@ -112,7 +112,7 @@ def caption(sizes: pd.DataFrame) -> str:
         Green–Kubo value at the time in which sound crosses the chain. It has no free parameter, and is
         {ratios} times that of fig. 8. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. Momenta are changed at
         random in a fraction of the collisions of (b). Dashed: guides, not laws."""
-    return Caption(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
+    return fill(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
 
 
 SERIES = " ".join(f"{OWN}{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))
