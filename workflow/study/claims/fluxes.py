@@ -67,8 +67,8 @@ def largest_distance(
     momentum: np.ndarray, density: np.ndarray, error: np.ndarray, temperature: float, *, normalised: bool
 ) -> tuple[float, float]:
     """Largest difference of the cumulative sums of a histogram and of the Gaussian of a temperature, with
-    the error of the sum S there, for independent bins: slow scatterers correlate them, by which the true error
-    is up to 1.5 times as large (gamma = 1, p = 35). Of normalised ones those below, (1 - S) of the error, and
+    the error of the sum S there, for independent bins. Slow scatterers correlate them: the error is up to
+    1.5 times too small (gamma = 1, p = 35). Of normalised ones those below, (1 - S) of the error, and
     those above, S of it, cancel each other. Empty bins have no error."""
     width = momentum[1] - momentum[0]
     total = float(np.sum(density) * width) if normalised else 1
