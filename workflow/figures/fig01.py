@@ -66,9 +66,9 @@ def number_bins(axes: Axes, result: Result) -> None:
 def caption(chain: Result) -> str:
     first, last = (format_quantity(chain["plateau"], k) for k in (0, -1))
     text = """The paper finds |p| n_t(p) stationary above a front p₀(t), which falls. Top: linear bins;
-        middle: logarithmic bins, with p₀(t) (circles). At λ = {spacing} the height above p₀ is {first} at
-        the first time and {last} at the last. Bottom: p₀ divided by λ/(et), its value for a stationary
-        flux."""
+        middle: logarithmic bins, summed over both signs of p, with p₀(t) (circles). At λ = {spacing} the
+        height above p₀ is {first} at the first time and {last} at the last. Bottom: p₀ divided by λ/(et),
+        its value for a stationary flux."""
     return fill(text, spacing=run_parameters.spacing(chain)[1], first=first, last=last)
 
 

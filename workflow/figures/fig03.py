@@ -68,7 +68,7 @@ def caption(results: Sequence[Result], largest: float) -> str:
     text = f"""The paper finds that the distribution F(p, x) jumps at p = 0. (a) At the ends it
         jumps by {{left}} and {{right}}. (b) Each half divided by a Gaussian of its own rate and second
         moment, where F exceeds {100 * OFTEN:g} % of its maximum: up to {{largest}} % off. Dotted:
-        equal temperatures, unequal rates."""
+        at equal temperatures and unequal rates they are no Gaussians either."""
     return fill(text, left=left, right=right, largest=f"{largest:.2g}")
 
 

@@ -69,7 +69,7 @@ def caption(table: pd.DataFrame) -> str:
     )
     bounds = dict(zip(("all", "longest"), (name for _, name in LIMITS), strict=True))
     text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and {longest} in the
-        longest chain. (a), (b) Particles that leave (points); lines: kinetic equation of N scatterers.
+        longest chain. (a), (b) Particles that leave (points); lines: mean field.
         (c) As p → 0, if ∫F dp is 1: {largest}."""
     return fill(text, largest=largest, **bounds)
 

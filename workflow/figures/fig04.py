@@ -136,7 +136,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
         claim = "has small jumps at p = 0"
     text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a), (b) Points: chain;
         lines: kinetic equation. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
-        at p = 0, of the chain and by the kinetic equation (bars)."""
+        at p = 0, of the chain and by the kinetic equation (ticks)."""
     largest = f"{math.ceil(10 * far) / 10:g}" if math.isfinite(far) else None
     return fill(text, largest=largest)
 

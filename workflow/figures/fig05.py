@@ -68,11 +68,11 @@ def caption(table: pd.DataFrame) -> str:
     largest = {}
     for name, part in table[table.sigma.abs() <= STEEP].groupby("series"):
         far = part.loc[part.deviation.abs().idxmax()]
-        largest[name] = format_with_error(far.deviation, far.mu_error)
+        largest[name] = format_with_error(abs(far.deviation), far.mu_error)
     text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
-        (b) Difference from this law, for |σ| ≤ {steep}: up to {paper} in the paper's ring. With {density}
-        particles per cell it is up to {dense}. Dashes: the law corrected for the conserved total
-        momentum Π."""
+        (b) Difference from this law: at most {paper} in size in the paper's ring for |σ| ≤ {steep}, beyond
+        which scatterers may still be cold. With {density} particles per cell it is at most {dense} in
+        size. Dashes: the law corrected for the conserved total momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}

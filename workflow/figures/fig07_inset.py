@@ -71,7 +71,7 @@ def caption(shown: pd.DataFrame) -> str:
     least, most = (extreme(shown[shown.kind == kind], row) for kind, row in ((PAPERS, 0), (ZERO, -1)))
     text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) At the paper's random total
         momentum α is at least {least} for σ ≠ 0. (b) At zero total momentum, without drift of the ring,
-        it is at most {most}. Diamonds: random directions, as in the paper's footnote."""
+        it is at most {most} for σ ≠ 0. Diamonds: random directions, as in the paper's footnote."""
     return fill(text, least=least, most=most)
 
 

@@ -35,7 +35,7 @@ NOISE: dict[str, tuple[str, style.Look]] = {
     "rotation": ("momentum conserved", style.points("s", style.BLUE)),
     "reversal": ("momentum broken", style.points("^", style.VERMILLION, "white")),
 }
-GASES = [("o", style.BLACK), *style.LOOKS[1:]]
+GASES = [("s", style.GREEN), ("D", style.ORANGE), ("^", style.SKY), ("P", style.BLUE)]
 
 
 def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
@@ -58,9 +58,7 @@ def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
     """Plots both conductivities, and the logarithm through those of the chain from FIRST on."""
     heat, gas = style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white", zorder=3)
     axes.errorbar(sizes.cells, sizes.kappa_heat, sizes.kappa_heat_error, label="chain, heat alone", **heat)
-    axes.errorbar(
-        sizes.cells, sizes.green_kubo, sizes.green_kubo_error, label="its gas in equilibrium", **gas
-    )
+    axes.errorbar(sizes.cells, sizes.green_kubo, sizes.green_kubo_error, label="Green–Kubo, its gas", **gas)
     style.cross_out(axes, sizes.cells, sizes.kappa_heat, ~sizes.usable & sizes.kappa_heat.notna())
     long = sizes[sizes.usable & (sizes.cells >= FIRST)]
     if len(long) > 2:
@@ -82,11 +80,13 @@ def noise(control: pd.DataFrame) -> Iterator[Line]:
         yield (f"{name}, {100 * epsilon:g} %" if epsilon else name), look, part
 
 
-def gases(elastic: pd.DataFrame) -> Iterator[Line]:
-    """Every gas."""
-    for (_, gas), look in zip(elastic.groupby(rings.STATE), cycle(GASES), strict=False):
+def gases(elastic: pd.DataFrame, control: pd.DataFrame) -> Iterator[Line]:
+    """Every gas, that of the noise as there."""
+    looks = cycle(GASES)
+    for _, gas in elastic.groupby(rings.STATE):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
-        yield rf"$\zeta = {zeta}$, $M = {mass}$", style.points(*look), gas
+        look = NOISE["elastic"][1] if gas.index.isin(control.index).any() else style.points(*next(looks))
+        yield rf"$\zeta = {zeta}$, $M = {mass}$", look, gas
 
 
 def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
@@ -98,8 +98,6 @@ def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
     style.guide_at(axes, 1, "1")
     style.guide_at(axes, 4 / 3, "4/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta$")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low - 0.1 * (high - low), high + 0.5 * (high - low))  # room for the legend
     axes.legend(loc="upper right")
 
 
@@ -108,9 +106,9 @@ def caption(sizes: pd.DataFrame) -> str:
     known = sizes[sizes.usable].dropna(subset="ratio_error").sort_values("cells")
     rows = [*known[known.cells >= min(FIRST, max(known.cells, default=FIRST))].itertuples()]
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
-    text = """(a) Conductivity of heat in fig. 8, and of rings of its gas, ζ = 16/N, in equilibrium: the
-        Green–Kubo value at the time in which sound crosses the chain. It has no free parameter, and is
-        {ratios} times that of fig. 8. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. Momenta are changed at
+    text = """(a) Conductivity of heat of the chains of fig. 8, and the Green–Kubo value of rings of their
+        gas, ζ = 16/N, at the time in which sound crosses the chain. It has no free parameter, and is
+        {ratios} times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. Momenta are changed at
         random in a fraction of the collisions of (b). Dashed: guides, not laws."""
     return fill(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
 
@@ -129,9 +127,12 @@ def draw(results: Sequence[Result]) -> Parts:
     broken = table[table.rule == "reversal"].iloc[-1]  # of the largest σ
     control = table[(table[rings.STATE] == broken[rings.STATE]).all(axis=1)]
     figure, axes = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
+    axes[2].sharey(axes[1])
     draw_own_gas(axes[0], sizes)
     draw_exponents(axes[1], noise(control))
-    draw_exponents(axes[2], gases(table[table.rule == "elastic"]))
+    draw_exponents(axes[2], gases(table[table.rule == "elastic"], control))
+    low, high = axes[2].get_ylim()
+    axes[2].set_ylim(low, high + 0.5 * (high - low))  # room for the legends
     zeta, mass = rings.texts(broken.zeta, broken.mass)
     titles = "fig. 8 and its own gas", rf"noise, $\zeta = {zeta}$, $M = {mass}$", "gases of one density"
     for panel, text in zip(axes, titles, strict=True):

@@ -133,8 +133,8 @@ def caption(table: pd.DataFrame) -> str:
     return f"""
         Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
         {nearly} nearly, {fail} do not, {undecided} are open. Bars: joint 95 %
-        confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly. The unit is
-        half the band, or half the bar if the band has one edge."""
+        confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly. Unit: half
+        the band, or half the bar if the band has one edge. Triangles: off the scale."""
 
 
 def draw(results: Sequence[Result]) -> Parts:
@@ -150,7 +150,7 @@ def plotted(table: pd.DataFrame) -> Parts:
         draw_row(axes, y, row)
     label_rows(axes, table)
     axes.set(xlim=(-LIMIT, LIMIT), ylim=(len(table) - 0.5, -0.5), yticks=[])
-    axes.set_xlabel("accepted: −1 to 1, or beyond one edge (grey)", size=8)
+    axes.set_xlabel("number, scaled so that it is accepted in the grey band", size=8)
     axes.set_xticks(range(-EDGE, EDGE + 1), [f"{tick}".replace("-", "−") for tick in range(-EDGE, EDGE + 1)])
     looks = [look_of(outcome.value, PRINTED) | {"label": outcome.value} for outcome in Outcome]
     looks.append(look_of(Outcome.REPRODUCED, MEANT) | {"label": f"hollow: {MEANT}"})
