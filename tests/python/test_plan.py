@@ -35,19 +35,15 @@ def test_seeds_stay_as_they_are() -> None:
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     for given in ({"replicas": 32}, {"error": 0.1}):
-        completed = Quality.parse("smoke_replicas=5").with_effort("fig05/paper", given | {"sigma": 0}, None)
+        completed = Quality.parse("smoke_replicas=5").with_effort("fig05/paper", given | {"sigma": 0})
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
     assert Quality.parse("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
     assert Quality.parse("smoke_error=0.50_seed=7").name == "smoke_seed=7_error=0.5"  # one folder
     assert Quality.parse("smoke_error=5e-3").effort == {"error": 0.005}
     quality = Quality.parse("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
-    completed = quality.with_effort("fig05/paper", {"replicas": 500, "sigma": 0}, 200)
-    assert {key: completed[key] for key in completed if key != "seed"} == {
-        "sigma": 0,
-        "target-error": 0.005,
-        "target-scale": 200,
-    }
+    completed = quality.with_effort("fig05/paper", {"replicas": 500, "sigma": 0})
+    assert {key: completed[key] for key in completed if key != "seed"} == {"sigma": 0, "target-error": 0.005}
 
 
 def test_a_name_belongs_to_one_panel_and_is_that_of_a_file(tmp_path: Path) -> None:

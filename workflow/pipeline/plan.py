@@ -270,7 +270,6 @@ class Plan:
 
     def _runs(self, panel: str, series: str, program: str, options: Options, where: str) -> Iterator[Run]:
         """The runs of a series: one for each combination of the values of options with a list."""
-        scale = options.pop("target-scale", None)
         options.pop("program", None)
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
@@ -278,7 +277,7 @@ class Plan:
             name, one = run_name(series, chosen), options | chosen
             one = {key: in_numbers(value, one.get("cells")) for key, value in one.items()}
             if is_sampled(program):
-                one = self.quality.with_effort(f"{panel}/{name}", one, scale)
+                one = self.quality.with_effort(f"{panel}/{name}", one)
             yield Run(name, series, program, one, f"data/{self.quality.name}/{panel}", where)
 
     def _check(self, document: Document, planned: dict[str, Panel]) -> None:

@@ -65,13 +65,12 @@ class Quality:
             [f"QUALITY={self.file}", *(f"{key.upper()}={value}" for key, value in self.effort.items())]
         )
 
-    def with_effort(self, names: str, options: Options, scale: float | None) -> Options:
+    def with_effort(self, names: str, options: Options) -> Options:
         """Options of a sampled run with its effort as options of the program, and its seed. names: of panel
-        and run, from which the seed follows; scale: reference value of the error, if the target may be 0."""
+        and run, from which the seed follows."""
         options = merge_efforts(options, {key: value for key, value in self.effort.items() if key != "seed"})
         if "error" in options:
             options["target-error"] = options.pop("error")
-            options |= {} if scale is None else {"target-scale": scale}
         if "seed" in self.effort:
             names = f"{names}/{self.effort['seed']}"
         return options | {"seed": seed_of(names)}
