@@ -51,7 +51,7 @@ def refusal(folder: Path) -> list[str]:
 
 # A mistake, and what its message names: line, keys, or the value that was meant.
 MISTAKES = [
-    ("cells: 11", "replicas: 9", ":5: panels.mu.common: 'replicas'"),
+    ("cells: 11", "replicas: 9", ":5: panels.mu.common: replicas: give it in quality/"),
     ("      cells: 11", "\tcells: 11", ":6:1: "),
     ("cells: 11", "cells: 11\n      cells: 11", ":7:7: duplicate key cells"),
     ("{sigma: 0.5, z", "{<<: {cells: 3}, sigma: 0.5, sigma: 0.6, z", "duplicate key sigma"),
@@ -72,12 +72,14 @@ REFUSED = [
     (
         "cells: 11",
         "cells: 0",
-        ":9: panels.mu.series.all: all_sigma=0 and 1 more: persistence: error: --cells: '0'",
+        ":6: panels.mu.common.cells: all_sigma=0 and 2 more: persistence: error: --cells: '0'",
     ),
     ("[0, 0.5]", "[0, -3]", "all_sigma=-3: persistence: error: --sigma: '-3'"),
     ("0.05N", "20 + N", "--relaxation-time: '20 + N'"),
     ("0.05N", ".nan", "--relaxation-time: 'nan'"),
     ("warm", "tepid", "empty, warm, cold, hot"),
+    ("dense: {replicas: 2}", "dense: {cells: -1}", ":3: panels.mu.dense.cells: dense: "),
+    ("{replicas: 4}", "{replicas: 0}", ":1: default.replicas: "),
 ]
 
 
@@ -102,7 +104,7 @@ def test_options_are_checked_by_the_programs(folder: Path, old: str, new: str, n
     with pytest.raises(ConfigurationError) as raised:
         require_valid(runs_of(Plan("smoke", [folder / "paper.yaml"])).values())
     lines = str(raised.value).split("\n")
-    assert all(re.match(rf"{file}:[0-9]+: panels", line) for line in lines)
+    assert all(re.match(rf"{file}:[0-9]+: (panels|default)", line) for line in lines)
     assert any(named in line for line in lines), lines
 
 

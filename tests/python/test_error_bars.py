@@ -17,7 +17,7 @@ CASES: list[tuple[str, str, dict]] = [
     ("persistence", "mu", {"sigma": -0.8}),
     ("waiting_time", "exponent", {"sigma": 0.5, "observation_time": 50}),
     ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
-    ("heat_current", "amplitude", EQUILIBRIUM),
+    ("heat_current", "mean_square_heat", EQUILIBRIUM),
     ("steady_profile", "density_excess", OPEN | {"gamma": 1.3}),
     ("momentum_flux", "jump", OPEN | {"gamma": 0.3}),
     ("particle_count", "log_slope", {"cells": 6, "times": "1,2.3,4.1"}),

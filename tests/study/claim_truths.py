@@ -105,7 +105,7 @@ def octaves(run: Run, middle: np.ndarray) -> np.ndarray:
     return last_octaves.get(run.name, 1.6) - 0.02 * (middle != middle.max())
 
 
-rings = {"momentum": {"local_exponent": octaves}}
+rings = {"momentum": {"local_exponent": octaves, "mean_square_heat": 1}}
 claim("growth.superdiffusive", rings, [1.31, 1.32, 1.35, 1.2])
 claim("growth.without_momentum", rings, [0.34, 0.25])
 

@@ -113,10 +113,13 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     if made:
         print(f"{len(made)} panel{'s' if len(made) > 1 else ''} with {len(plotted)} results: {listed}")
     if states.keys() & {State.STALE, State.MISSING}:
-        of_user = [panel.name for panel in made if panel not in plan.reported]
-        listed_names = quote(" ".join(names or of_user))
-        target = f"panel PANEL={listed_names}" if names or of_user else "report" if plan.report else "figures"
-        print(f"make {target} {plan.quality.arguments} makes stale and missing files")
+        faulty = [panel for panel in made if panel.name in files or {*results} & {*panel.parents}]
+        by_name = names or [panel.name for panel in faulty if panel not in plan.reported]
+        targets = [f"panel PANEL={quote(' '.join(by_name))}"] if by_name else []
+        if not by_name or len(by_name) < len(faulty):
+            targets.append("report" if plan.report else "figures")
+        for target in targets:
+            print(f"make {target} {plan.quality.arguments} makes stale and missing files")
     if states.keys() - {State.NOT_CHECKED}:
         return 1
     return 3 if states or not made else 0

@@ -55,13 +55,18 @@ class Document:
         schema = SCHEMA[kind] | {"$defs": SCHEMA["$defs"]}
         for error in Draft202012Validator(schema).iter_errors(self.content):
             nearest = best_match([error])  # of alternatives
-            complaints.add(self.complaint(tuple(nearest.absolute_path), nearest.message))
+            remedy = nearest.schema.get("description")  # beside what is not allowed
+            problem = f"{nearest.instance}: {remedy}" if remedy else nearest.message
+            complaints.add(self.complaint(tuple(nearest.absolute_path), problem))
         if complaints:
             raise ConfigurationError("\n".join(sorted(complaints)))
 
+    def position(self, keys: Keys) -> str:
+        """File, line and keys."""
+        return f"{self.name}:{self._line(keys)}: {'.'.join(map(str, keys)) or 'the file'}"
+
     def complaint(self, keys: Keys, problem: str) -> str:
-        """The problem after file, line and keys."""
-        return f"{self.name}:{self._line(keys)}: {'.'.join(map(str, keys)) or 'the file'}: {problem}"
+        return f"{self.position(keys)}: {problem}"
 
     def require(self, name: str | None, known: Collection[str], keys: Keys, kind: str) -> None:
         """Raises ConfigurationError if a name is unknown."""

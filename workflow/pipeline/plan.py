@@ -4,7 +4,7 @@ import itertools
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
@@ -17,6 +17,7 @@ from workflow.pipeline.configuration import (
     STUDY,
     ConfigurationError,
     Document,
+    Keys,
     Options,
     arguments,
     load_configuration,
@@ -51,7 +52,9 @@ class Run:
     program: str
     options: Options
     folder: str
-    where: str = ""  # file, line and key of the series
+    where: dict[str, str] = field(
+        default_factory=dict, compare=False
+    )  # positions of options; "": of the series
 
     @property
     def panel(self) -> str:
@@ -195,12 +198,11 @@ class Plan:
             if file.exists() or file == files[0]
         ]
         require_distinct([document for document, _ in read])
-        default = read[0][1].content["default"]
         planned: dict[str, Panel] = {}
         uses: dict[str, Sequence[str]] = {}
         for document, efforts in read:
             for name, panel in document.content["panels"].items():
-                planned[name] = self._panel(name, panel, efforts.content, default, document)
+                planned[name] = self._panel(name, panel, document, efforts, read[0][1])
                 uses[name] = panel.get("uses", ())
         for document, _ in read:
             self._check(document, planned)
@@ -240,20 +242,28 @@ class Plan:
         return [panel for panel in self if panel.file in (PANELS[0], STUDY)]
 
     def _panel(
-        self, name: str, panel: dict[str, Any], efforts: dict[str, Any], default: Options, document: Document
+        self, name: str, panel: dict[str, Any], document: Document, efforts: Document, general: Document
     ) -> Panel:
-        own = efforts.get("panels", {}).get(name, {})
+        """general: the file with the default effort."""
+        own, at = efforts.content.get("panels", {}).get(name, {}), ("panels", name)
         runs: list[Run] = []
         replaced: list[str] = []
         of_panel = {key: value for key, value in own.items() if key != "omit" and not isinstance(value, dict)}
         for series, program in programs_of(panel).items():
             if series in own.get("omit", ()):
                 continue
-            physics = panel.get("common", {}) | panel["series"][series]
-            general = (default, of_panel) if is_sampled(program) else ()
-            effort = merge_efforts({}, *general, own.get(series, {}))
+            given: list[tuple[Document, Keys, Options]] = [
+                (document, (*at, "common"), panel.get("common", {})),
+                (document, (*at, "series", series), panel["series"][series]),
+            ]
+            physics = given[0][-1] | given[1][-1]
+            if is_sampled(program):
+                given += [(general, ("default",), general.content["default"]), (efforts, at, of_panel)]
+            given.append((efforts, (*at, series), own.get(series, {})))
+            effort = merge_efforts({}, *(options for *_, options in given[2:]))
             replaced += [f"{key} of {series}" for key in effort if key in physics]
-            where = document.complaint(("panels", name, "series", series), "").rstrip(": ")
+            where = {"": document.position((*at, "series", series))}
+            where |= {key: file.position((*keys, key)) for file, keys, options in given for key in options}
             runs += self._runs(name, series, program, physics | effort, where)
         folders = [folder for folder in (SCRIPTS.get(document.file), FIGURE_SCRIPTS) if folder]
         paths = [f"{folder}/{panel.get('script', name)}.py" for folder in folders]
@@ -268,7 +278,9 @@ class Plan:
             file=document.file,
         )
 
-    def _runs(self, panel: str, series: str, program: str, options: Options, where: str) -> Iterator[Run]:
+    def _runs(
+        self, panel: str, series: str, program: str, options: Options, where: dict[str, str]
+    ) -> Iterator[Run]:
         """The runs of a series: one for each combination of the values of options with a list."""
         options.pop("program", None)
         listed = [key for key, value in options.items() if isinstance(value, list)]
@@ -287,7 +299,7 @@ class Plan:
             if not planned[name].runs and "uses" not in panel:
                 text = f"no runs at quality {self.quality.name}, and no panel whose runs it uses"
                 raise ConfigurationError(document.complaint(keys, text))
-            with_runs = {other for other, one in planned.items() if one.runs and other != name}
+            with_runs = [other for other, one in planned.items() if one.runs and other != name]
             for number, used in enumerate(panel.get("uses", ())):
                 document.require(used, with_runs, (*keys, "uses", number), "panel with runs")
             for number, path in enumerate(panel.get("inputs", ())):

@@ -1,6 +1,7 @@
 """Compiles and runs the programs of build/bin."""
 
 import os
+import re
 import subprocess
 import sys
 from collections import defaultdict
@@ -47,22 +48,25 @@ def require_built(program: str) -> None:
 
 
 def require_valid(runs: Iterable[Run]) -> None:
-    """Raises ConfigurationError with one line, for the first run of a series, for each reason why a program
-    refuses its options."""
+    """Raises ConfigurationError with one line, for the first run, for each reason why a program refuses its
+    options, at the position of the option that it names."""
 
     def refusal(run: Run) -> tuple[str, Run]:
         command = [str(PROGRAMS / run.program), *arguments(run.options), "--describe"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         return done.stderr.strip() if done.returncode else "", run
 
-    refused: dict[tuple[str, str], list[Run]] = defaultdict(list)
+    refused: dict[str, list[Run]] = defaultdict(list)
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
         for reason, run in threads.map(refusal, runs):
             if reason:
-                refused[run.where, reason].append(run)
-    if refused:
-        more = {key: f" and {len(alike) - 1} more" if alike[1:] else "" for key, alike in refused.items()}
-        lines = [f"{where}: {refused[where, why][0].name}{more[where, why]}: {why}" for where, why in refused]
+                refused[reason].append(run)
+    lines = []
+    for reason, (first, *more) in refused.items():
+        named = [option for option in re.findall(r"--([\w-]+)", reason) if option in first.where]
+        number = f" and {len(more)} more" if more else ""
+        lines.append(f"{first.where[named[0] if named else '']}: {first.name}{number}: {reason}")
+    if lines:
         raise ConfigurationError("\n".join(lines))
 
 
