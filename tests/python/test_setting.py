@@ -2,6 +2,7 @@
 
 import importlib
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -49,6 +50,16 @@ def result_of(run: Run) -> Result:
 def shown(panel: Panel) -> list[Result]:
     draw, results = script_of(panel).draw, [result_of(run) for run in panel.plotted]
     return draw.shown(results) if isinstance(draw, Plot) else results
+
+
+def test_plotted_series_exist() -> None:
+    """Detected mistake: a misspelled name in @plots, whose series would not be plotted."""
+    series = defaultdict(set)
+    for panel in PLOTTED:
+        series[panel.script] |= {run.series for run in panel.plotted}
+    for panel in PLOTTED:
+        draw = script_of(panel).draw
+        assert not isinstance(draw, Plot) or {*draw.series} <= series[panel.script]
 
 
 def text_of(panel: Panel, results: Sequence[Result]) -> str:

@@ -71,10 +71,9 @@ def scales(folder: Path, panel: str, name: str, text: str) -> bool:
 
 
 @pytest.mark.parametrize("panel", OF_RUNS)
-def test_every_column_scales_as_its_units_and_every_panel_has_a_caption(smoke: Path, panel: str) -> None:
+def test_every_column_scales_as_its_units(smoke: Path, panel: str) -> None:
     plain, scaled = tables(smoke, panel)
-    units, caption = units_and_caption(smoke, panel)
-    assert len(caption) >= 120
+    units, _ = units_and_caption(smoke, panel)
     labels = [name for name in plain if name not in units and name not in OPTIONS_AS_GIVEN]
     pd.testing.assert_frame_equal(plain[labels], scaled[labels])
     for name, text in units.items():

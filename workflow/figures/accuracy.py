@@ -21,6 +21,7 @@ from workflow.lib.text import format_number, format_with_error, listed
 from workflow.physics import run_parameters
 
 TITLE = "Accuracy against time"
+LABELLED = True  # labels have the parameters
 UNITS = {"cpu_seconds": "second", "cost_of_1_percent": "second", "cost_without_control_variates": "second"}
 UNITS |= dict.fromkeys(("error", "deviation"), "1")
 

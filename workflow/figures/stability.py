@@ -18,6 +18,7 @@ from workflow.lib.load import Result
 from workflow.lib.text import scientific, scientific_in_tex
 
 TITLE = "Numerical stability"
+LABELLED = True  # labels have the parameters
 UNITS = dict.fromkeys(("collisions", "ratio"), "1")
 
 RULES = {"elastic": "as computed here", "printed": "by the paper's formula"}  # others by their names

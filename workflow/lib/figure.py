@@ -3,7 +3,8 @@
 A script, FIGURE.py in workflow/figures, defines TITLE and draw(results). `@plots` before draw names the
 plotted series. UNITS has the units of columns that are not named after a quantity, an axis or an option; they
 also hold for the columns of their errors. Anything else is in workflow/lib and workflow/physics, or named by
-`inputs` of the panel. The renderer adds the parameters to the caption (physics/setting.py).
+`inputs` of the panel. The renderer adds the parameters (physics/setting.py), unless LABELLED
+states that labels have them.
 """
 
 from collections.abc import Callable, Iterable, Sequence

@@ -36,8 +36,6 @@ def sentences(results: Sequence[Result], script: str) -> str:
     """What the plotted results of a panel have: `σ = 1/2, N = 11, the paper's baths.`, and what differs: `Not
     the paper's: N = 3 (paper: 11) in `young`.`"""
     paper = stated(script)
-    if not paper and script.startswith("workflow/"):  # not a figure of the paper: labels have the parameters
-        return ""
     common: dict[str, set[Any]] = defaultdict(set)
     differing: dict[str, dict[str, set[Any]]] = defaultdict(lambda: defaultdict(set))  # by series and name
     given: set[str] = set()

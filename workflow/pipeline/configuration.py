@@ -136,7 +136,8 @@ def load_configuration(quality: str, file: Path, first: Path) -> tuple[Document,
     panels, effort = read(file, "panels"), file.parent / f"quality/{quality}.yaml"
     efforts = read(effort, "quality") if effort.exists() or file == first else Document(effort, content={})
     if file == first:
-        efforts.require("default", efforts.content, (), "key of this file")
+        if "default" not in efforts.content:
+            raise ConfigurationError(efforts.complaint((), "add default: {replicas: 32}"))
     elif "default" in efforts.content:
         text = f"is given in {first.parent.name}/quality alone: give the replicas of each panel here"
         raise ConfigurationError(efforts.complaint(("default",), text))

@@ -63,7 +63,8 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     csv = as_csv(table, inherited(loaded) | errors | units)
     added = [f"Not shown: {quoted(others)}."] if others else []
     whole = " ".join([caption, *added, *outside(figure), *warnings(shown)])
-    return figure, csv, Text(module.TITLE, " ".join(whole.split()), setting.sentences(shown, script))
+    parameters = "" if hasattr(module, "LABELLED") else setting.sentences(shown, script)
+    return figure, csv, Text(module.TITLE, " ".join(whole.split()), parameters)
 
 
 def load_all(paths: Sequence[Path]) -> list[Result]:

@@ -24,6 +24,7 @@ from workflow.physics import run_parameters
 from workflow.study import rings
 
 TITLE = "Conductivity of fig. 8's gas, and heat with and without conserved momentum"
+LABELLED = True  # labels have the parameters
 UNITS = dict.fromkeys(("epsilon", "zeta", "mass", "ratio"), "1") | {"green_kubo": "energy/(time temperature)"}
 
 OWN = "gas-"  # begin of the names of the series of fig. 8's gas

@@ -23,6 +23,7 @@ from workflow.study.typeset import figure_of, mathtext
 from workflow.study.verdict import Band, Outcome
 
 TITLE = "Verdicts on the statements of the paper"
+LABELLED = True  # rows have the panels
 UNITS = dict.fromkeys(("value", "error", "systematic", "low", "high"), "1")
 UNITS |= dict.fromkeys(("band_low", "band_high", "nearly_low", "nearly_high"), "1")
 UNITS |= dict.fromkeys(("position", "position_low", "position_high"), "1")
