@@ -18,8 +18,6 @@ PATCHES = sorted((ROOT / "tests/mutants").glob("*.patch"))
 HEAD = re.compile(r"(?P<mistake>.+); (?P<source>\S+_test\.cpp) (?P<tests>\S+)")
 FAILED = "[  FAILED  ] "
 
-pytestmark = pytest.mark.long
-
 
 def head(patch: Path) -> re.Match[str]:
     found = HEAD.fullmatch(patch.read_text().partition("\n")[0])
@@ -60,6 +58,11 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
     return tree
 
 
+def test_every_patch_applies() -> None:
+    subprocess.run(["git", "apply", "--check", *PATCHES], cwd=ROOT, check=True)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("patch", PATCHES, ids=lambda patch: patch.stem)
 def test_the_mistake_is_found(tree: Tree, patch: Path) -> None:
     tree.run("git", "apply", str(patch))
