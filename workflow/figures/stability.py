@@ -15,7 +15,7 @@ from workflow.lib import style
 from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, TheoryError, plots, require
 from workflow.lib.load import Result
-from workflow.lib.text import scientific, scientific_in_tex
+from workflow.lib.text import format_number, listed, scientific, scientific_in_tex
 
 TITLE = "Numerical stability"
 LABELLED = True  # labels have the parameters
@@ -119,9 +119,11 @@ def caption(walks: pd.DataFrame, known: pd.DataFrame) -> str:
     changes = {rule: scientific(longest[rule]) if rule in longest else None for rule in RULES}
     text = f"""(a) Energy currents in extreme chains deviate from their exact values (dots) by at most
         {{score}} standard errors (grey bars: {BAR}). Dotted: rounding error of the
-        energy. (b) Relative changes by rounding. {{collisions}} collisions change the energy by
-        {{elastic}} as computed here. The paper's formula changes it by {{printed}}."""
-    return fill(text, score=f"{score:.1f}", collisions=scientific(walks.collisions.max()), **changes)
+        energy. (b) Relative changes by rounding at σ = {{sigma}}. {{collisions}} collisions change the
+        energy by {{elastic}} as computed here. The paper's formula changes it by {{printed}}."""
+    sigma = listed(map(format_number, sorted({*walks.sigma})))
+    collisions = scientific(walks.collisions.max())
+    return fill(text, score=f"{score:.1f}", sigma=sigma, collisions=collisions, **changes)
 
 
 @plots(f"rounding {' '.join(LIMITS)}")
