@@ -106,7 +106,7 @@ def test_fig07() -> None:
         for mean, error in (both(runs[0][name]) for name in ("mean_square_drift", "mean_square_displacement"))
     ]
     np.testing.assert_allclose(random.fraction_error / random.fraction, np.hypot(*relative))
-    assert "α is 1.800(18) in the shaded window. At zero total momentum it is 1.100(11)." in caption
+    assert "α is 1.800(18) at N = 11 in the shaded window. At zero total momentum it is 1.100(11)." in caption
 
 
 PULSE = RING | {"energy": 5000.0, "pulse_energy": 5e4, "scatterer_temperature": 0.0, "relaxation_time": 1.0}

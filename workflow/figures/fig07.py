@@ -57,9 +57,11 @@ def tabulate(result: Result) -> pd.DataFrame:
 def caption(results: Sequence[Result]) -> str:
     without = [format_quantity(result["alpha"]) for result in results if zero(result)]
     text = """The paper finds ⟨x²⟩ ∼ t^α with α slightly below 2 for a tagged particle. Here α is {alpha}
-        in the shaded window. At zero total momentum it is {without}. Lines: mean square displacement of
-        the centre of mass, by which the ring drifts. (b) Local exponents. Dashed guides are not fits."""
-    return fill(text, alpha=format_quantity(results[0]["alpha"]), without=without[0] if without else None)
+        at N = {cells} in the shaded window. At zero total momentum it is {without}. Lines: mean square
+        displacement of the centre of mass, by which the ring drifts. (b) Local exponents. Dashed guides
+        are not fits."""
+    numbers = {"alpha": format_quantity(results[0]["alpha"]), "cells": str(results[0].parameters["cells"])}
+    return fill(text, without=without[0] if without else None, **numbers)
 
 
 @plots("all zero-momentum large", varied="cells")
