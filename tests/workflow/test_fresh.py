@@ -201,7 +201,11 @@ def test_panels_of_the_user_are_made_by_name_alone(project: Project) -> None:
     assert project.stale() == set()
     project.entry("panel", "PANEL=mine")
     (own / "helper.py").write_text("NUMBER = 4\n")
-    assert "changed: own/helper.py" in project.entry("status", status=1)
+    printed = project.entry("status", status=1)
+    assert "changed: own/helper.py" in printed
+    assert [line for line in printed.splitlines() if line.endswith("makes stale and missing files")] == [
+        "make panel PANEL=mine QUALITY=smoke makes stale and missing files"
+    ]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])

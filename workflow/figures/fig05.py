@@ -72,8 +72,7 @@ def caption(table: pd.DataFrame) -> str:
     text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
         (b) Difference from this law: at most {paper} in size in the paper's ring for |σ| ≤ {steep}, beyond
         which scatterers may still be cold. With {density} particles per cell it is at most {dense} in
-        size. Dashes, at σ = 0 bars: the law corrected for the conserved total
-        momentum Π."""
+        size. Dashes, at σ = 0 bars: the law corrected for the conserved total momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}

@@ -3,8 +3,8 @@
 A script, FIGURE.py in workflow/figures, defines TITLE and draw(results). `@plots` before draw names the
 plotted series. UNITS has the units of columns that are not named after a quantity, an axis or an option; they
 also hold for the columns of their errors. Anything else is in workflow/lib and workflow/physics, or named by
-`inputs` of the panel. The renderer adds the parameters (physics/setting.py), unless LABELLED
-states that labels have them.
+`inputs` of the panel. The renderer adds the parameters (physics/setting.py), unless the script has LABELLED =
+True, as its labels have them.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -50,8 +50,8 @@ class Plot:
 
 
 def plots(series: str, varied: str = "") -> Callable[[Draw], Plot]:
-    """Decorator of draw(), which then takes the results of these series only. Names of series and
-    of `varied` parameters are separated by blanks."""
+    """Decorator of draw(), which then takes the results of these series only. Names of series and of
+    `varied` parameters are separated by blanks."""
     return lambda draw: Plot(draw, tuple(series.split()), tuple(varied.split()))
 
 

@@ -23,7 +23,6 @@ from workflow.pipeline.plan import PYTHON, Panel, Plan, runs_of, warnings_of
 from workflow.pipeline.state import (
     Fault,
     State,
-    fault_of_files,
     faults_of_files,
     faults_of_results,
     is_made,
@@ -88,10 +87,11 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     """names: of the panels to check; all and the report if there are none. Returns the exit status."""
     requested = [plan[name] for name in names] or [*plan]
     made = [panel for panel in requested if is_made(panel)]
-    unmade = [panel for panel in requested if panel not in made]
+    reports = [plan.report] if plan.report and not names else []
+    unmade = [product for product in [*requested, *reports] if not is_made(product)]
     plotted = runs_of(made)
     unplotted = {path: run for path, run in runs_of(requested).items() if path not in plotted}
-    results, files = faults_of_results(plotted), faults_of_files(made)
+    results, files = faults_of_results(plotted), faults_of_files([*made, *filter(is_made, reports)])
     faults = [*results.values(), *files.values()]
     if render:  # figures whose results and files hold
         faults += faults_of_rendering(
@@ -99,11 +99,6 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
         )
     # Of panels without pictures, results that are missing are no fault.
     faults += [fault for fault in faults_of_results(unplotted).values() if fault.state is not State.MISSING]
-    if not names and plan.report:
-        if is_made(plan.report):
-            faults += filter(None, [fault_of_files(plan.report)])
-        else:
-            unmade.append(plan.report)
     print_faults(faults)
     print_warnings(warnings_of(made))
     if unmade:
@@ -113,10 +108,11 @@ def audit(plan: Plan, names: Sequence[str], *, render: bool) -> int:
     if made:
         print(f"{len(made)} panel{'s' if len(made) > 1 else ''} with {len(plotted)} results: {listed}")
     if states.keys() & {State.STALE, State.MISSING}:
-        faulty = [panel for panel in made if panel.name in files or {*results} & {*panel.parents}]
-        by_name = names or [panel.name for panel in faulty if panel not in plan.reported]
+        faulty = {*files, *(panel.name for panel in made if {*results} & {*panel.parents})}
+        shipped = {product.name for product in [*plan.reported, *reports]}
+        by_name = names or sorted(faulty - shipped)
         targets = [f"panel PANEL={quote(' '.join(by_name))}"] if by_name else []
-        if not by_name or len(by_name) < len(faulty):
+        if not names and (faulty & shipped or not by_name):
             targets.append("report" if plan.report else "figures")
         for target in targets:
             print(f"make {target} {plan.quality.arguments} makes stale and missing files")

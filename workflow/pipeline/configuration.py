@@ -55,7 +55,7 @@ class Document:
         schema = SCHEMA[kind] | {"$defs": SCHEMA["$defs"]}
         for error in Draft202012Validator(schema).iter_errors(self.content):
             nearest = best_match([error])  # of alternatives
-            remedy = nearest.schema.get("description")  # beside what is not allowed
+            remedy = nearest.schema.get("description")
             problem = f"{nearest.instance}: {remedy}" if remedy else nearest.message
             complaints.add(self.complaint(tuple(nearest.absolute_path), problem))
         if complaints:

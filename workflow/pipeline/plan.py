@@ -52,9 +52,13 @@ class Run:
     program: str
     options: Options
     folder: str
-    where: dict[str, str] = field(
-        default_factory=dict, compare=False
-    )  # positions of options; "": of the series
+    # Files and keys that give its options, by their names; "": of the series.
+    where: dict[str, tuple[Document, Keys]] = field(default_factory=dict, compare=False)
+
+    def position(self, options: Iterable[str]) -> str:
+        """File, line and keys of the first of these options that is given, else of the series."""
+        document, keys = self.where[next((option for option in options if option in self.where), "")]
+        return document.position(keys)
 
     @property
     def panel(self) -> str:
@@ -262,8 +266,8 @@ class Plan:
             given.append((efforts, (*at, series), own.get(series, {})))
             effort = merge_efforts({}, *(options for *_, options in given[2:]))
             replaced += [f"{key} of {series}" for key in effort if key in physics]
-            where = {"": document.position((*at, "series", series))}
-            where |= {key: file.position((*keys, key)) for file, keys, options in given for key in options}
+            where: dict[str, tuple[Document, Keys]] = {"": (document, (*at, "series", series))}
+            where |= {key: (file, (*keys, key)) for file, keys, options in given for key in options}
             runs += self._runs(name, series, program, physics | effort, where)
         folders = [folder for folder in (SCRIPTS.get(document.file), FIGURE_SCRIPTS) if folder]
         paths = [f"{folder}/{panel.get('script', name)}.py" for folder in folders]
@@ -279,7 +283,12 @@ class Plan:
         )
 
     def _runs(
-        self, panel: str, series: str, program: str, options: Options, where: dict[str, str]
+        self,
+        panel: str,
+        series: str,
+        program: str,
+        options: Options,
+        where: dict[str, tuple[Document, Keys]],
     ) -> Iterator[Run]:
         """The runs of a series: one for each combination of the values of options with a list."""
         options.pop("program", None)

@@ -63,9 +63,9 @@ def require_valid(runs: Iterable[Run]) -> None:
                 refused[reason].append(run)
     lines = []
     for reason, (first, *more) in refused.items():
-        named = [option for option in re.findall(r"--([\w-]+)", reason) if option in first.where]
+        position = first.position(re.findall(r"--([\w-]+)", reason))
         number = f" and {len(more)} more" if more else ""
-        lines.append(f"{first.where[named[0] if named else '']}: {first.name}{number}: {reason}")
+        lines.append(f"{position}: {first.name}{number}: {reason}")
     if lines:
         raise ConfigurationError("\n".join(lines))
 

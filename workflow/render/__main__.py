@@ -63,7 +63,7 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     csv = as_csv(table, inherited(loaded) | errors | units)
     added = [f"Not shown: {quoted(others)}."] if others else []
     whole = " ".join([caption, *added, *outside(figure), *warnings(shown)])
-    parameters = "" if hasattr(module, "LABELLED") else setting.sentences(shown, script)
+    parameters = "" if getattr(module, "LABELLED", False) else setting.sentences(shown, script)
     return figure, csv, Text(module.TITLE, " ".join(whole.split()), parameters)
 
 

@@ -53,7 +53,6 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
         figures[typeset.figure_of(row["panel"])].append(row)
     page = environment.get_template("gallery.md.j2" if release else "report.html.j2").render(
         quality=quality.name,
-        effort=quality.arguments,
         counts={outcome.name: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
         rows=rows,
         figures=figures,
