@@ -21,8 +21,8 @@ from workflow.study.verdict import Outcome
 
 PLAN = {panel.name: panel for panel in Plan("smoke").reported}
 IDS = {
-    *(number.lower() for row in read_claims(ROOT) for number in row["numbers"].split()),
-    *(f"{row['numbers'].lower()[:3]}-as-meant" for row in read_claims(ROOT) if row["kind"] == "as meant"),
+    *(row["number"].lower() for row in read_claims(ROOT)),
+    *(f"{row['number'].lower()}-as-meant" for row in read_claims(ROOT) if row["kind"] == "as meant"),
     *PLAN,
 }
 
@@ -132,7 +132,7 @@ def test_no_quality_contradicts_another(smoke: Path, gallery: Path) -> None:
         parents = [smoke / path for path in Plan(quality)["verdicts"].parents]
         if all(path.exists() for path in parents):
             for judgement in judge_all(Results(map(load, parents))):
-                key = judgement.row["numbers"], judgement.row["kind"]
+                key = judgement.row["number"], judgement.row["kind"]
                 verdicts[key][quality] = judgement.verdict.outcome.value
     assert any("smoke" in of_row for of_row in verdicts.values())
     opposite = {Outcome.REPRODUCED.value, Outcome.CONTRADICTED.value}

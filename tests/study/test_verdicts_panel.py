@@ -48,7 +48,7 @@ CLAIMS: dict[str, tuple[Band, Estimate, str, float, float]] = {
 
 
 def row(claim: str, kind: str = "as printed") -> dict[str, str]:
-    return {"numbers": claim, "kind": kind, "panel": "fig01", "statement": claim, "short": ""}
+    return {"number": claim, "kind": kind, "panel": "fig01", "statement": claim, "short": ""}
 
 
 JUDGED = [Judgement(row(name), Verdict(band, (one,), LEVEL)) for name, (band, one, *_) in CLAIMS.items()]

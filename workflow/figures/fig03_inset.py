@@ -1,7 +1,7 @@
 """Fig. 3, inset: finite chains against the kinetic equation, for the particles that leave the chain.
 
-F_N(p, 0) for p < 0 and F_N(p, 1) for p > 0, both averaged over the bins, minus F, in units of the largest F.
-Lines: the mean field, the kinetic equation of N scatterers.
+F_N(p, 0) for p < 0 and F_N(p, 1) for p > 0, both averaged over the bins, minus F, which integrates to 1 in a
+chain without correlations. Lines: the mean field, the kinetic equation of N scatterers.
 """
 
 from collections.abc import Sequence
@@ -20,10 +20,10 @@ from workflow.lib.text import format_with_error, listed
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, amplitudes, at_centre, deviations, reach
 
 TITLE = "Deviation of finite chains from the kinetic equation"
-UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
-UNITS |= {"absolute_as_printed": "1/momentum"}
+UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1/momentum")
 
-LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
+LIMITS = {0.1: "bound", 0.01: "bound\nat $N = 16$"}  # of the deviation in the paper, in %
+UNIT = r"%, at $\int F\,dp = 1$"
 
 
 def draw_end(axes: Axes, table: pd.DataFrame, sign: int, shown: float, title: str) -> None:
@@ -33,45 +33,37 @@ def draw_end(axes: Axes, table: pd.DataFrame, sign: int, shown: float, title: st
     for (size, rows), (color, dashes, (marker, _)) in zip(half.groupby("cells"), looks, strict=False):
         points, line = (rows[rows.kind == kind] for kind in (SIMULATION, MEAN_FIELD))
         look = style.points(marker, color, markersize=2.5, capsize=0, label=f"$N = {size}$")
-        axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look)
-        axes.plot(line.momentum, 1e3 * line.deviation, color=color, linestyle=dashes, linewidth=0.8)
+        axes.errorbar(points.momentum, 100 * points.deviation, 100 * points.error, **look)
+        axes.plot(line.momentum, 100 * line.deviation, color=color, linestyle=dashes, linewidth=0.8)
     axes.axhline(0, **style.GUIDE)
     axes.set(xlabel="momentum $p$", title=title, xlim=sorted((0, sign * shown)))
 
 
 def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots the amplitude of the deviation against N, with the paper's limits in either normalisation."""
-    printed = (table.absolute_as_printed / table.deviation).median()
+    """Plots the amplitude of the deviation against N, with the paper's bounds."""
     points, line = amplitudes(table), at_centre(table)
     look = style.points("o", style.BLUE, label=SIMULATION)
-    axes.errorbar(points.cells, points.amplitude, points.error, **look)
-    axes.plot(line.index, line, color=style.BLACK, label=MEAN_FIELD)
+    axes.errorbar(points.cells, 100 * points.amplitude, 100 * points.error, **look)
+    axes.plot(line.index, 100 * line, color=style.BLACK, label=MEAN_FIELD)
     style.against_size(axes, points.cells)
     axes.set_yscale("log")
-    axes.margins(y=0.35)  # room for the legend
-    units: list[tuple[float, str, style.Look]] = [(1, r"of $\max F$", {})]
-    units.append((1 / printed, "at $\\int F\\,dp = 1$", {"color": style.GREEN}))
-    for height, name in LIMITS:
-        for scale, unit, look in units:
-            axes.axhline(height * scale, **style.GUIDE | look)
-            place: style.Look = {"transform": axes.get_yaxis_transform(), "va": "bottom", "ha": "center"}
-            axes.text(0.5, height * scale, f"{name} {unit}", size=style.label_size(), **place, **look)
-    axes.set(ylabel=r"$|F_N - F|\,/\,\max F$")
-    style.second_axis(axes, printed, r"$|F_N - F|$ at $\int F\,dp = 1$")
-    axes.legend(loc="upper right")
+    axes.margins(y=0.2)  # room for the legend
+    for bound, name in LIMITS.items():
+        style.guide_at(axes, bound, name)
+    axes.set(ylabel=f"$|F_N - F|$ / {UNIT}")
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 0.2))
 
 
 def caption(table: pd.DataFrame) -> str:
-    scale = 100 * (table.absolute_as_printed / table.deviation).median()
     largest = listed(
-        f"{format_with_error(scale * row.amplitude, scale * row.error)} % at N = {row.cells}"
+        f"{format_with_error(100 * row.amplitude, 100 * row.error)} % at N = {row.cells}"
         for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
-    bounds = dict(zip(("all", "longest"), (name for _, name in LIMITS), strict=True))
-    text = """The paper finds F_N − F, chain minus kinetic equation, below {all}, and {longest} in the
-        longest chain. (a), (b) Particles that leave (points); lines: mean field.
-        (c) As p → 0, if ∫F dp is 1: {largest}."""
-    return fill(text, largest=largest, **bounds)
+    first, longest = LIMITS
+    text = f"""The paper finds F_N − F, chain minus kinetic equation, below {first} %, and {longest} % in the
+        longest chain, if F integrates to 1. (a), (b) Particles that leave (points); lines: mean field.
+        (c) As p → 0: {{largest}}."""
+    return fill(text, largest=largest)
 
 
 @plots("simulation continuum mean-field")
@@ -83,7 +75,7 @@ def draw(results: Sequence[Result]) -> Parts:
     shown = reach(next(result["flux"] for result in results if result.parameters["cells"] == "continuum"))
     draw_end(panels["left"], table, -1, shown, "left end, $x = 0$")
     draw_end(panels["right"], table, 1, shown, "right end, $x = 1$")
-    panels["left"].set_ylabel(r"$10^3\,(F_N - F)\,/\,\max F$")
+    panels["left"].set_ylabel(f"$F_N - F$ / {UNIT}")
     panels["left"].legend(loc="upper left", handletextpad=0.2)
     draw_decay(panels["decay"], table)
     style.letter(*panels.values())

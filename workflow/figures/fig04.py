@@ -21,7 +21,7 @@ from workflow.lib.text import format_with_error
 from workflow.physics import run_parameters
 from workflow.physics.fluxes import at, reach
 
-TITLE = "Momentum distribution of the particles at both ends of an open chain"
+TITLE = "Momentum distribution of the particles at both ends of an open chain, γ = {gamma}"
 UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
 
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.

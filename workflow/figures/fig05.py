@@ -23,7 +23,7 @@ LOOKS = {
     "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = {}$, $\Pi = 0$"),
     "dense": style.points("^", style.GREEN, label=r"$n = {}$, random $\Pi$"),
 }
-STEEP = 0.9  # largest |σ| of the deviations in the caption: beyond it scatterers may still be cold
+COLD = 0.8  # energy of a scatterer over that of a particle as they meet: below it scatterers are still cold
 
 
 def at_momentum(result: Result) -> float:
@@ -61,22 +61,24 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     table = pd.DataFrame(rows).sort_values(["series", "sigma"], ignore_index=True)
     table.insert(5, "law", persistence_law(table.sigma))
     table.insert(6, "deviation", table.mu - table.law)
-    return table
+    cold = table.scatterer_energy < COLD * table.particle_energy
+    return table.assign(cold=cold & (table.sigma.abs() < 1))
 
 
 def caption(table: pd.DataFrame) -> str:
     largest = {}
-    for name, part in table[table.sigma.abs() <= STEEP].groupby("series"):
+    for name, part in table[~table.cold].groupby("series"):
         far = part.loc[part.deviation.abs().idxmax()]
         largest[name] = format_with_error(abs(far.deviation), far.mu_error)
     text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
-        (b) Difference from this law: at most {paper} in size in the paper's ring for |σ| ≤ {steep}, beyond
-        which scatterers may still be cold. With {density} particles per cell it is at most {dense} in
-        size. Dashes, at σ = 0 bars: the law corrected for the conserved total momentum Π."""
+        (b) Difference from this law, at most {paper} in the paper's ring. With {density} particles per cell
+        it is at most {dense}. At σ = {cold} it is larger, as the heavy scatterers are still cold. Dashes,
+        at σ = 0 bars: the law corrected for the conserved total momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
+    cold = listed(map(format_number, sorted({*table[table.cold].sigma}))) if table.cold.any() else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}
-    return fill(text, steep=format_number(STEEP), density=density, **numbers)
+    return fill(text, cold=cold, density=density, **numbers)
 
 
 @plots("paper zero-momentum dense", varied="particles_per_cell")
@@ -103,5 +105,10 @@ def draw(results: Sequence[Result]) -> Parts:
     above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
-    below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
+    for sigma, part in table[table.cold].groupby("sigma"):
+        side, lift = ("right", 4) if sigma > 0 else ("left", -4)
+        lowest = sigma, 1e3 * part.deviation.min()
+        style.name_point(below, "scatterers still cold", lowest, (lift, -6), ha=side, va="top")
+    below.margins(y=0.2)  # room for their name
+    below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,[\mu - \arccos(\sigma)/\pi]$")
     return figure, table, caption(table)

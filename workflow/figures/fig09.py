@@ -1,11 +1,12 @@
 """Fig. 9: energy difference after a pulse, at several times; a: gamma = N, b: gamma = 1.
 
-Shown from the paper's start, in which scatterers at rest have relaxed, and from a start in which all momenta
-are Gaussian; also position and speed of the moving peak. Faint: times at which both sides of the pulse have
-met opposite to it; there is no peak from then on.
+Shown from the paper's start, in which scatterers are at rest, and from one in which they are as warm as the
+particles; also position and speed of the moving peak. Faint: times at which both sides of the pulse have met
+opposite to it; there is no peak from then on.
 """
 
 import functools
+import math
 from collections.abc import Sequence
 from itertools import cycle
 
@@ -24,15 +25,15 @@ from workflow.physics.closed import quasi_stationary
 from workflow.physics.pulse import in_order, label, look, look_of, named_start, resolved, start
 from workflow.physics.sound import Chain
 
-TITLE = "Energy difference after a pulse"
+TITLE = "Energy difference after a pulse, γ = {gamma}"
 UNITS = {"distance": "1"}
 
 FAINT = 0.45
-FRAME = 1.15  # over the largest peak: the scatterer of the central cell would set the scale
+FRAME = 1.15  # over the largest peak: the scatterer of the central cell does not set the scale
 
 
 def sound_speed(rest: Result) -> float:
-    """Speed of sound [eq. 56] in cells per time, at gamma = N, in the ring from rest without the pulse: at
+    """Speed of sound [eq. 56] in cells per time, at gamma = N, from scatterers at rest, without the pulse: at
     the temperature and with the slow particles of eqs. 13 and 14 at the end of its relaxation."""
     options = rest.parameters
     particles, length = float(options["particles_per_cell"]), float(options["cell_length"])
@@ -42,7 +43,7 @@ def sound_speed(rest: Result) -> float:
 
 
 def with_sound(result: Result) -> bool:
-    """Whether the speed of sound is known: from rest, where every particle scatters."""
+    """Whether the speed of sound is known: from scatterers at rest, where every particle scatters."""
     return holds([result], gamma="N", scatterer_temperature=0)
 
 
@@ -63,9 +64,6 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
         part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
     axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
-    heights = result["peak"].mean[np.isin(result["peak"].axes["time"], shown)]
-    if np.isfinite(heights).any():
-        axes.set_ylim(top=FRAME * np.nanmax(heights) / 1e3)
     axes.set_title(label(result), size=style.label_size())
     return pd.concat(parts).assign(scatterer_temperature=str(start(result)))
 
@@ -89,18 +87,19 @@ def speeds(result: Result) -> tuple[str, str] | tuple[None, None]:
     return format_quantity(speed, known[0]), format_quantity(speed, known[-1])
 
 
-def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
+def caption(results: Sequence[Result], table: pd.DataFrame, top: float) -> str:
+    """top: largest energy difference in the frame."""
     rest = results[0]
     first, last = speeds(rest)
     peaks = "two peaks of almost constant" if rest.parameters["gamma"] == "N" else "peaks of constant"
-    sound = "; (d) sound in the ring from rest" if with_sound(rest) else ""
+    sound = "; (d) sound in the ring of scatterers initially at rest" if with_sound(rest) else ""
     faint = "Faint: after both sides of the pulse have met. " if table.ring_closed.any() else ""
     centre = table[(table.distance == 0) & (table.scatterer_temperature == str(start(rest)))]
     height = centre.energy_difference.max()
-    spike = f"{height / 1e3:.0f}" if height > FRAME * np.nanmax(rest["peak"].mean) else None
+    spike = f"{height / 1e3:.0f}" if height > top else None
     text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. (a) The central
         cell reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
-        {named_start(rest).capitalize()}, the speed is {{first}} cells per time at first and {{last}} at
+        With {named_start(rest)}, the speed is {{first}} cells per time at first and {{last}} at
         last. {faint}Dashed lines: (c) constant first speed{sound}."""
     return fill(text, first=first, last=last, spike=spike)
 
@@ -111,14 +110,19 @@ def draw(results: Sequence[Result]) -> Parts:
     size = (2 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["rest", "gaussian"], ["position", "speed"]], figsize=size)
     position, speed, rest = (panels[name] for name in ("position", "speed", "rest"))
+    panels["gaussian"].sharey(rest)
     common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
     shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
+    heights = np.concatenate([r["peak"].mean[np.isin(r["peak"].axes["time"], shown)] for r in results])
+    top = FRAME * np.nanmax(heights) if np.isfinite(heights).any() else np.inf
     tables = []
     for result in results:
         tables.append(draw_profiles(panels[result.run], result, shown))
         draw_motion(position, speed, result)
+    if math.isfinite(top):
+        rest.set_ylim(top=top / 1e3)
     if with_sound(results[0]):
-        style.guide_at(speed, sound_speed(results[0]), "sound, from rest", color=look(results[0])[1])
+        style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
     name = rf"$\gamma = {run_parameters.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")
@@ -129,4 +133,4 @@ def draw(results: Sequence[Result]) -> Parts:
     figure.legend(*rest.get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
     table = pd.concat(tables)
-    return figure, table, caption(results, table)
+    return figure, table, caption(results, table, top)

@@ -18,7 +18,7 @@ from workflow.lib.text import format_with_error, listed
 from workflow.physics import run_parameters
 from workflow.physics.pulse import in_order, label, look_of, named_start, resolved, start
 
-TITLE = "Damping of the moving peak of an energy pulse"
+TITLE = "Damping of the moving peak of an energy pulse, γ = {gamma}"
 UNITS = dict.fromkeys(("exponent_from_here", "octave_exponent"), "1")
 UNITS |= {"speed_to_next": "1/time", "octave_middle": "time"}
 
@@ -99,7 +99,7 @@ def caption(results: Sequence[Result]) -> str:
     laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
     name = "exponents" if len(guides(results)) > 1 else "exponent"
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
-        Exponents fitted over successive octaves of time; {named_start(rest)} the first is {{first}}. The
+        Exponents fitted over successive octaves of time; with {named_start(rest)} the first is {{first}}. The
         last is {{last}}. Dashed guides, not fits: {name} {{laws}}."""
     return fill(text, first=first, last=last if len(found) > 1 else None, laws=laws)
 
@@ -121,5 +121,5 @@ def draw(results: Sequence[Result]) -> Parts:
         style.label_within_decades(axis)
     corner: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
     above.text(0.95, 0.95, rf"$\gamma = {run_parameters.gamma(results[0])}$", **corner)
-    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
     return figure, table, caption(results)

@@ -1,6 +1,7 @@
 """What the figure scripts share.
 
-A script, FIGURE.py in workflow/figures, defines TITLE and draw(results). `@plots` before draw names the
+A script, FIGURE.py in workflow/figures, defines TITLE, in which {gamma} is that of the panel's own runs, and
+draw(results). `@plots` before draw names the
 plotted series. UNITS has the units of columns that are not named after a quantity, an axis or an option; they
 also hold for the columns of their errors. Anything else is in workflow/lib and workflow/physics, or named by
 `inputs` of the panel. The renderer adds the parameters (physics/setting.py), unless the script has LABELLED =

@@ -31,7 +31,7 @@ UNIT_SYSTEM = "$m = k_B = 1$"
 # Colours of matplotlib's cycle, which apply() sets to those of Okabe and Ito (2008). Neighbours in SEQUENCE
 # differ in lightness; markers differ too.
 BLACK = "#000000"
-BLUE, ORANGE, GREEN, VERMILLION, SKY = "C0", "C1", "C2", "C3", "C4"
+BLUE, ORANGE, GREEN, VERMILLION, SKY, PURPLE = "C0", "C1", "C2", "C3", "C4", "C5"
 
 # Colours and dashes for an ordered set of curves, with increasing lightness and increasing gaps.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
@@ -63,7 +63,7 @@ _SETTINGS: dict[RcKeyType, Any] = {
     "font.serif": ["STIXGeneral"],
     "font.size": 9,
     "mathtext.fontset": "stix",
-    "axes.prop_cycle": cycler(color=["#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9"]),
+    "axes.prop_cycle": cycler(color=["#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#CC79A7"]),
     "axes.linewidth": 0.6,
     "axes.labelsize": 9,
     "axes.titlesize": 9,

@@ -49,12 +49,13 @@ def in_bins(values: np.ndarray, count: int) -> np.ndarray:
 
 
 def deviations(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per kind, N and bin: deviation from the continuum, in units of the largest F. The mean field
-    has the bins of the continuum, which may be narrower than those of the simulations."""
+    """One row per kind, N and bin: deviation from the continuum, normalised as in the paper, where F of a
+    chain without correlations integrates to 1. The mean field has the bins of the continuum, which may be
+    narrower than those of the simulations."""
     (continuum,) = (result for result in results if result.parameters["cells"] == "continuum")
     flux = continuum["flux"]
     exact = outgoing(flux.mean, flux.axes["momentum"])
-    largest = flux.mean.max()
+    rates = run_parameters.both_rates(continuum)
     tables = []
     for result in results:
         if result is continuum:
@@ -64,14 +65,12 @@ def deviations(results: Sequence[Result]) -> pd.DataFrame:
         simulated = chain_flux.standard_error is not None
         table = pd.DataFrame({"momentum": momentum})
         excess = outgoing(chain_flux.mean, momentum) - in_bins(exact, len(momentum))
-        table["deviation"] = excess / largest
-        table["error"] = outgoing(chain_flux.error, momentum) / largest if simulated else 0.0
+        table["deviation"] = excess / rates
+        table["error"] = outgoing(chain_flux.error, momentum) / rates if simulated else 0.0
         table.insert(0, "kind", SIMULATION if simulated else MEAN_FIELD)
         table.insert(1, "cells", int(result.parameters["cells"]))
         tables.append(table)
-    # In the normalisation that the paper prints, F of a chain without correlations integrates to 1.
-    table = pd.concat(tables, ignore_index=True)
-    return table.assign(absolute_as_printed=table.deviation * largest / run_parameters.both_rates(continuum))
+    return pd.concat(tables, ignore_index=True)
 
 
 def amplitudes(table: pd.DataFrame) -> pd.DataFrame:

@@ -8,11 +8,11 @@ from workflow.lib import style
 from workflow.lib.load import Result
 from workflow.lib.text import format_number
 
-# By run: marker, colour and fill colour; in the order of the legends, the paper's start first.
+# By run: marker, colour, which is none of style.SEQUENCE, and fill colour; the paper's start is first.
 LOOKS = {
-    "rest": ("s", style.VERMILLION, "white"),
-    "gaussian": ("o", style.BLUE, style.BLUE),
-    "long": ("^", style.SKY, style.SKY),
+    "rest": ("s", style.GREEN, "white"),
+    "gaussian": ("o", style.PURPLE, style.PURPLE),
+    "long": ("^", style.PURPLE, "white"),
 }
 
 
@@ -21,9 +21,10 @@ def start(result: Result) -> str | float:
 
 
 def named_start(result: Result) -> str:
-    """The start in words, `from rest` in the paper."""
-    words = {"particles": "from a Gaussian start", 0: "from rest"}
-    return words.get(start(result)) or f"from scatterers at T = {format_number(float(start(result)))}"
+    """The start in words."""
+    words = {"particles": "warm", 0: "at rest"}
+    state = words.get(start(result)) or f"at T = {format_number(float(start(result)))}"
+    return f"scatterers initially {state}"
 
 
 def look(result: Result) -> tuple[str, str, str]:
@@ -40,7 +41,7 @@ def label(result: Result) -> str:
     """Start and size, those of the paper marked; runs of the user's own have their name."""
     if result.run not in LOOKS:
         return result.run
-    paper = ", as in the paper" if start(result) == 0 else ""
+    paper = " (paper)" if start(result) == 0 else ""
     size = f", $N = {result.parameters['cells']}$" if result.run == "long" else ""
     return named_start(result) + paper + size
 

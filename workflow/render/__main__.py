@@ -21,7 +21,7 @@ from workflow.lib.figure import NoValueError, Plot, TheoryError
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
 from workflow.lib.units import UnitsError
-from workflow.physics import setting
+from workflow.physics import run_parameters, setting
 from workflow.render.files import format_os_error
 from workflow.render.frame import outside
 from workflow.render.record import panel_identity, sources_of_panel
@@ -64,7 +64,8 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     added = [f"Not shown: {quoted(others)}."] if others else []
     whole = " ".join([caption, *added, *outside(figure), *warnings(shown)])
     parameters = "" if getattr(module, "LABELLED", False) else setting.sentences(shown, script)
-    return figure, csv, Text(module.TITLE, " ".join(whole.split()), parameters)
+    title = module.TITLE.format(gamma=run_parameters.gamma(loaded[-1]))
+    return figure, csv, Text(title, " ".join(whole.split()), parameters)
 
 
 def load_all(paths: Sequence[Path]) -> list[Result]:

@@ -16,7 +16,7 @@ from workflow.study.results import Claim, MissingError, Results
 from workflow.study.verdict import Band, Outcome, Verdict, level_of_each
 
 CLAIMS_FILE = "workflow/study/claims.csv"
-COLUMNS = ["numbers", "kind", "place", "statement", "short", "panel", "function"]
+COLUMNS = ["number", "kind", "place", "statement", "short", "panel", "function"]
 COLUMNS += ["band", "nearly", "criterion", "caveat"]
 MOST_LETTERS = 60  # of a statement in the picture of the verdicts: `short`, or `statement` without one
 PRINTED, MEANT = KINDS = ("as printed", "as meant")
@@ -59,7 +59,7 @@ def read_claims(root: Path) -> list[dict[str, str]]:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
         for row in rows:
-            where = f"row {row['numbers']}, {row['kind']}"
+            where = f"row {row['number']}, {row['kind']}"
             bands(row)
             function_of(row)
             if row["kind"] not in KINDS:

@@ -98,7 +98,7 @@ def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
         axes.errorbar(known.middle, known.local_exponent, error, label=label, **look | LINE)
     style.guide_at(axes, 1, "1")
     style.guide_at(axes, 4 / 3, "4/3")
-    axes.set(xscale="log", xlabel="time $t$", ylabel=r"$\beta$")
+    axes.set(xscale="log", xlabel="time $t$", ylabel=r"exponent $\beta$")
     axes.legend(loc="upper right")
 
 
@@ -133,7 +133,7 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_exponents(axes[1], noise(control))
     draw_exponents(axes[2], gases(table[table.rule == "elastic"], control))
     low, high = axes[2].get_ylim()
-    axes[2].set_ylim(low, high + 0.5 * (high - low))  # room for the legends
+    axes[2].set_ylim(low, high + 0.27 * (high - low))  # room for the legends
     zeta, mass = rings.texts(broken.zeta, broken.mass)
     titles = "fig. 8 and its own gas", rf"noise, $\zeta = {zeta}$, $M = {mass}$", "gases of one density"
     for panel, text in zip(axes, titles, strict=True):

@@ -49,7 +49,7 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
     quality = plan.quality
     rows = [*map(shown, judgements)]
     figures = defaultdict(list)
-    for row in sorted(rows, key=lambda row: str(row["panel"][:5])):  # fig10 after fig09
+    for row in rows:
         figures[typeset.figure_of(row["panel"])].append(row)
     page = environment.get_template("gallery.md.j2" if release else "report.html.j2").render(
         quality=quality.name,
@@ -89,14 +89,12 @@ def inches(picture: bytes) -> float:
 def shown(judgement: Judgement) -> dict[str, Any]:
     """A statement with its verdict, for the template."""
     row, verdict = judgement.row, judgement.verdict
-    first, *others = row["numbers"].lower().split()
     printed = row["kind"] == PRINTED
-    anchor = first if printed else f"{first}-{row['kind'].replace(' ', '-')}"
+    name = row["number"] if printed else f"{row['number']} {row['kind']}"
     listed = verdict.numbers if len(verdict.numbers) <= MOST_NUMBERS else [verdict.decisive]
     return dict(row) | {
-        "anchor": anchor,
-        "ids": [anchor, *others] if printed else [anchor],
-        "name": row["numbers"] if printed else f"{row['numbers']} {row['kind']}",
+        "anchor": name.lower().replace(" ", "-"),
+        "name": name,
         "outcome": verdict.outcome,
         "style": verdict.outcome.name.lower(),
         "sign": SIGNS[verdict.outcome],
@@ -118,7 +116,7 @@ def numbers_file(judgements: Sequence[Judgement]) -> bytes:
     table."""
     lines = [
         {
-            "claim": judgement.row["numbers"],
+            "claim": judgement.row["number"],
             "kind": judgement.row["kind"],
             "claim_verdict": judgement.verdict.outcome.value,
             "quantity": number.label,

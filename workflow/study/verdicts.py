@@ -17,6 +17,7 @@ from matplotlib.lines import Line2D
 from workflow.lib import style
 from workflow.lib.figure import Parts
 from workflow.lib.load import Result
+from workflow.lib.text import listed
 from workflow.study.judge import MEANT, PRINTED, Judgement, judge_all, label
 from workflow.study.results import Results
 from workflow.study.typeset import figure_of, mathtext
@@ -52,7 +53,7 @@ def scale_of(band: Band, value: float, half: float) -> tuple[float, float]:
 
 
 def tabulate(judgements: Sequence[Judgement]) -> pd.DataFrame:
-    """One row per statement, in the order of the figures; low, high: ends of the interval."""
+    """One row per statement; low, high: ends of the interval."""
     rows = []
     for row, verdict in ((one.row, one.verdict) for one in judgements):
         number, band = verdict.decisive if verdict.numbers else None, verdict.band
@@ -61,7 +62,7 @@ def tabulate(judgements: Sequence[Judgement]) -> pd.DataFrame:
         ends = number.interval(verdict.level / len(verdict.numbers)) if number else (math.nan, math.nan)
         origin, unit = scale_of(band, value, (ends[1] - ends[0]) / 2)
         position, low, high = ((one - origin) / unit for one in (value, *ends))
-        columns: dict[str, Any] = {"claim": row["numbers"], "kind": row["kind"], "panel": row["panel"]}
+        columns: dict[str, Any] = {"claim": row["number"], "kind": row["kind"], "panel": row["panel"]}
         columns |= {"statement": label(row), "verdict": verdict.outcome.value}
         columns |= {"quantity": number.label or "value" if number else NOT_MEASURED, "value": value}
         columns |= {"error": error, "systematic": systematic, "low": ends[0], "high": ends[1]}
@@ -69,9 +70,7 @@ def tabulate(judgements: Sequence[Judgement]) -> pd.DataFrame:
             columns |= {f"{name}_{end}": getattr(edges, end, math.nan) for end in ("low", "high")}
         columns |= {"position": position, "position_low": low, "position_high": high}
         rows.append(columns)
-    return pd.DataFrame(rows).sort_values(
-        "panel", key=lambda panel: panel.str[:5], kind="stable", ignore_index=True
-    )
+    return pd.DataFrame(rows)
 
 
 def look_of(verdict: str, kind: str) -> style.Look:
@@ -130,10 +129,9 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame) -> str:
-    hold, nearly, fail, undecided = ((table.verdict == outcome.value).sum() for outcome in Outcome)
+    counts = listed(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
     return f"""
-        Of {len(table)} statements of the paper, as printed or as meant (hollow), {hold} hold,
-        {nearly} nearly, {fail} do not, {undecided} are open. Bars: joint 95 %
+        Of {len(table)} statements of the paper, as printed or as meant (hollow), {counts}. Bars: joint 95 %
         confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly. Unit: half
         the band, or half the bar if the band has one edge. Triangles: off the scale."""
 

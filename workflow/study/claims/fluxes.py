@@ -120,12 +120,11 @@ def deviations_over_bounds(data: Results) -> list[Estimate]:
     """Largest |F_N - F| of the outgoing particles, that as p -> 0, over the printed bound, at every N. The
     paper does not state its bins: the difference from the bins of the simulations is a systematic error."""
     table, degrees = _finite(data)
-    scale, lowered = float((table.absolute_as_printed / table.deviation).median()), _lowered_by_bins(table)
-    numbers = []
+    lowered, numbers = _lowered_by_bins(table), []
     for row in amplitudes(table).itertuples():
         bound = PRINTED.get(row.cells, OTHERWISE)
         label = f"largest |F_N - F|/{100 * bound:g} %, N = {row.cells}"
-        number = Estimate(label, scale * row.amplitude, scale * row.error, degrees) / bound
+        number = Estimate(label, row.amplitude, row.error, degrees) / bound
         numbers.append(with_systematic(number, [lowered * number.value]))
     return numbers
 
@@ -154,7 +153,7 @@ def deviations_central(data: Results) -> list[Estimate]:
         label = f"1 - |deviation at p = {momentum[k]:g}|/|that at p = 0|"
         both = [centre, Estimate("", abs(value[k]), error[k], degrees)]
         less.append(combination(both, [1 / centre.value, -1 / centre.value], label))
-    odd = combination([left, right], [0.5, -0.5], "odd part over max F at p = 0")
+    odd = combination([left, right], [0.5, -0.5], "odd part of F_N - F at p = 0, ∫F dp = 1")
     return [*less, _magnitude(odd)]
 
 
