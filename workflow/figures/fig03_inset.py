@@ -22,7 +22,7 @@ from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, amplitudes, at_centr
 TITLE = "Deviation of finite chains from the kinetic equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1/momentum")
 
-LIMITS = {0.1: "bound", 0.01: "bound\nat $N = 16$"}  # of the deviation in the paper, in %
+LIMITS = {0.1: "bound", 0.01: "bound,\nlongest"}  # of the deviation in the paper, in %
 UNIT = r"%, at $\int F\,dp = 1$"
 
 

@@ -25,7 +25,7 @@ class Chain:
 
     @property
     def inertia(self) -> float:
-        """ρ [eq. 55]: momentum per length and drift w."""
+        """𝓜₁ [eq. 55]: momentum per length and drift w."""
         return 2 * self.fugacity + self.mass / self.cell_length
 
     @property

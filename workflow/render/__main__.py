@@ -61,7 +61,7 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     units = getattr(module, "UNITS", {})
     errors = {f"{column}_error": text for column, text in units.items()}
     csv = as_csv(table, inherited(loaded) | errors | units)
-    added = [f"Not shown: {quoted(others)}."] if others else []
+    added = [f"Not plotted: series {quoted(others)}."] if others else []
     whole = " ".join([caption, *added, *outside(figure), *warnings(shown)])
     parameters = "" if getattr(module, "LABELLED", False) else setting.sentences(shown, script)
     title = module.TITLE.format(gamma=run_parameters.gamma(loaded[-1]))

@@ -14,7 +14,10 @@ MINUS = "\N{MINUS SIGN}"
 
 def typeset(text: str) -> Markup:
     """Text as HTML."""
-    return Markup(_with_scripts(str(escape(text)).replace("&#39;", "'"), "<sup>{}</sup>", "<sub>{}</sub>"))
+    parts = str(escape(text)).replace("&#39;", "'").split("`")  # names of series and runs between them
+    parts[::2] = [_with_scripts(part, "<sup>{}</sup>", "<sub>{}</sub>") for part in parts[::2]]
+    parts[1::2] = [f"<code>{part}</code>" for part in parts[1::2]]
+    return Markup("".join(parts))
 
 
 def mathtext(text: str) -> str:
