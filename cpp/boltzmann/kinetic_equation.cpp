@@ -250,7 +250,7 @@ Vector KineticSolution::passed(double x, double sign) const {
 
 Vector KineticSolution::passed_to_site(std::size_t site, double sign) const {
   Vector passed = this->passed(x_[site], sign);
-  if (problem_.cells > 0) passed[site] = 0;  // a scatterer's own gain does not arrive at it [eq. 41]
+  if (problem_.cells > 0) passed[site] = 0;  // a scatterer's own gain does not arrive at it [eq. 39]
   return passed;
 }
 

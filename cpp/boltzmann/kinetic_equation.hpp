@@ -13,11 +13,11 @@
 
 namespace lorentz {
 
-/// Stationary Boltzmann equation [eq. 36] for the flux F(p, x) on 0 < x < 1 between two baths (m = k_B = 1),
+/// Stationary Boltzmann equation [eq. 35] for the flux F(p, x) on 0 < x < 1 between two baths (m = k_B = 1),
 ///
 ///   sign(p) dF/dx = gamma (G - F),   F(p > 0, x = 0) and F(p < 0, x = 1) given [eq. 5],
 ///
-/// or, with `cells` > 0, the mean-field chain [eq. 41]: scatterers that each scatter a particle with
+/// or, with `cells` > 0, the mean-field chain [eq. 39]: scatterers that each scatter a particle with
 /// probability gamma/cells, with F and the scatterer's density g independent at each.
 ///
 /// F jumps at p = 0, but the gain G is smooth there, and the loss does not depend on p. Let u = p/sqrt(T)
@@ -42,12 +42,12 @@ struct ConvergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The collision [eq. 38]. The Fourier transform of F is exp(-k^2/2) f(-ik) with the power series f(z) =
+/// The collision [eq. 36]. The Fourier transform of F is exp(-k^2/2) f(-ik) with the power series f(z) =
 /// sum_n f_n z^n/sqrt(n!). The exponentials cancel, as (-sigma)^2 + sum_j (c^2 sigma^j)^2 = 1, so that
 ///
 ///   G(z) = f(-sigma z) prod_{j>=0} f(c^2 sigma^j z)/J,   J = f_0.
 ///
-/// G_n depends on f_0, ..., f_n only; G_n = f_n for n = 0, 1, 2: number, momentum and energy [eq. 40].
+/// G_n depends on f_0, ..., f_n only; G_n = f_n for n = 0, 1, 2: number, momentum and energy [eq. 38].
 class CollisionOperator {
  public:
   CollisionOperator(double sigma, std::size_t order);
@@ -79,11 +79,11 @@ struct Flux {
   /// p = -0.0 is the limit from below.
   double density(double p) const { return std::signbit(p) ? left.density(-p) : right.density(p); }
   double integral(double low, double high) const;  // over momenta on one side of p = 0
-  double particle_current() const { return right.moment(0) - left.moment(0); }        // [eq. 26]
-  double energy_current() const { return 0.5 * (right.moment(2) - left.moment(2)); }  // [eq. 26]
+  double particle_current() const { return right.moment(0) - left.moment(0); }        // [eq. 25]
+  double energy_current() const { return 0.5 * (right.moment(2) - left.moment(2)); }  // [eq. 25]
   double jump() const { return right.density(0) - left.density(0); }                  // at p = 0
-  double particle_temperature() const;                                                // [eq. 27]
-  double scatterer_temperature(double sigma) const;                                   // <P^2>/M [eq. 39]
+  double particle_temperature() const;                                                // [eq. 26]
+  double scatterer_temperature(double sigma) const;                                   // <P^2>/M [eq. 37]
 };
 
 /// Solution of a KineticProblem: Newton's method for the lowest coefficients, which contain the conserved

@@ -10,7 +10,7 @@
 namespace lorentz {
 namespace {
 
-/// Sampler of the speeds of half-Gaussian particles that have entered for a time, the age [eq. 24].
+/// Sampler of the speeds of half-Gaussian particles that have entered for a time, the age [eq. 23].
 /// pdf: exp(-v^2/2) / max(v, slow_) up to a factor, v > 0 in units of sqrt(T): a particle slower than one
 /// flight per age has accumulated for the age only.
 /// Method: composition of v < slow_ and v > slow_. Below, rejection: of a uniform v by exp(-v^2/2), or of a

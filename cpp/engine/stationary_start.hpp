@@ -6,7 +6,7 @@
 
 namespace lorentz {
 
-/// Parameters of the stationary measure of a closed chain [eq. 54] at rest on average. Only heat_current, of
+/// Parameters of the stationary measure of a closed chain [eq. 50] at rest on average. Only heat_current, of
 /// the study "does the paper hold?", starts from it.
 struct StationaryMeasure {
   double fugacity = 1;     // z of the flux z exp(-p^2/2T); 1/length
@@ -26,7 +26,7 @@ struct StationaryMeasure {
 /// Reference: Lewis and Shedler, Naval Res. Logist. Q. 26, 403 (1979), doi:10.1002/nav.3800260304.
 PhasePoint stationary_start(const ClosedChain& chain, const StationaryMeasure& measure, const StreamKey& key);
 
-/// Mean number of particles in a cell, 2 zeta Lambda [eq. 54]. Validity: that of stationary_start().
+/// Mean number of particles in a cell, 2 zeta Lambda [eq. 50]. Validity: that of stationary_start().
 double mean_number(const ClosedChain& chain, const StationaryMeasure& measure);
 
 }  // namespace lorentz

@@ -13,7 +13,7 @@ struct ClosedChain : Scatterers {
   std::uint32_t particles() const { return cells * particles_per_cell; }
 };
 
-/// Energy and momentum of a closed chain [eq. 4], with the scale of the momentum's error. The momentum is NaN
+/// Energy and momentum of a closed chain [eq. 3], with the scale of the momentum's error. The momentum is NaN
 /// if the collision rule does not conserve it, and at sigma = 1, where the scatterers have infinite mass.
 struct Invariants {
   double energy = 0;          // sum of u^2/2 + sum of U^2/2

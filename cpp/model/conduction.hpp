@@ -8,7 +8,7 @@
 namespace lorentz {
 
 /// Why reservoirs impose no gradient of temperature on the scatterers between them, so that the ratio of a
-/// current to it is no conductivity [eq. 28], with the remedy; empty if they do. Options are compared
+/// current to it is no conductivity [eq. 27], with the remedy; empty if they do. Options are compared
 /// exactly. conducts: whether collisions at this sigma exchange energy, and not only momenta
 /// (RuleProperties).
 inline std::string reason_without_conduction(const Reservoir& left, const Reservoir& right, double gamma,

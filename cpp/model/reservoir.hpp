@@ -23,7 +23,7 @@ struct Reservoir {
   }
 };
 
-/// Figure 2 of the paper: equal pressures [eq. 29] and a nonzero particle current [eq. 30].
+/// Figure 2 of the paper: equal pressures [eq. 28] and a nonzero particle current [eq. 29].
 inline constexpr Reservoir default_left{220, 900. / 11}, default_right{180, 1100. / 9};
 
 }  // namespace lorentz

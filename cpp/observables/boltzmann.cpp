@@ -1,10 +1,10 @@
 /// Solution of the kinetic (Boltzmann) equation of the open chain, the limit of infinitely many cells and
-/// particles at fixed gamma, in which a particle and the scatterer that it reaches are independent [eq. 36],
+/// particles at fixed gamma, in which a particle and the scatterer that it reaches are independent [eq. 35],
 ///
 ///   sign(p) dF/dx = gamma [ int dU F(u') g(U') - F ],   g(U) int F du = int du F(u') g(U'),   0 < x < 1,
 ///
 /// with F(p > 0) at x = 0 and F(p < 0) at x = 1 given by the reservoirs (half-Gaussian) [eq. 5]. With --cells
-/// it is solved for a chain of N scatterers, each with its own F and g (mean field) [eq. 41].
+/// it is solved for a chain of N scatterers, each with its own F and g (mean field) [eq. 39].
 ///
 /// The result is deterministic. The error of a quantity is twice the sum of the changes with the order of the
 /// series that are still to come, if they fall as those of F did, and rounding.
@@ -110,7 +110,7 @@ struct Value {
 };
 using Values = std::vector<Value>;
 
-/// -J_U N/(T_N - T_1) [eq. 28].
+/// -J_U N/(T_N - T_1) [eq. 27].
 double conductivity(const Parameters& parameters, const KineticSolution& solution) {
   if (!parameters.cells || !reason_without_kappa(parameters).empty()) return std::nan("");
   const Flux first = solution.at_scatterer(0), last = solution.at_scatterer(*parameters.cells - 1);

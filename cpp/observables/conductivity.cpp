@@ -1,15 +1,15 @@
 /// Heat conductivity kappa(N) of an open chain, from the energy current J_U (positive to the right) and the
-/// temperatures <P^2>/M of the first and the last scatterer [eq. 27, eq. 28]:
+/// temperatures <P^2>/M of the first and the last scatterer [eq. 26, eq. 27]:
 ///
 ///   kappa = -J_U N / (T_N - T_1).
 ///
 /// The paper prints kappa = J_U/(T_N - T_1) for a chain of length 1; its exponents need the gradient per
-/// cell, hence the factor N. Currents are means over the two openings [eq. 26]. kappa_heat is that of the
-/// heat J_U - T J_n alone, without the energy T that a particle carries on average [eq. 58].
+/// cell, hence the factor N. Currents are means over the two openings [eq. 25]. kappa_heat is that of the
+/// heat J_U - T J_n alone, without the energy T that a particle carries on average [eq. 54].
 ///
-/// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 31], which at gamma
+/// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 30], which at gamma
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
-/// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. kappa is
+/// martingales of the end scatterers [eq. 31], whose means are exact for every collision rule. kappa is
 /// NaN, and the reason is printed, where reservoirs do not impose a difference of temperature, or where it is
 /// less than five of its standard errors.
 #include <cmath>

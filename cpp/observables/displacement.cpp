@@ -1,15 +1,15 @@
 /// Displacement of a tagged particle: <x^2> of the unwrapped displacement x(t) since the end of the
 /// relaxation, averaged over all particles, on a logarithmic grid of times.
 ///
-/// The closed chain conserves the total momentum [eq. 4]. The paper's random initial state gives it a value
-/// of order sqrt(nN T), and the centre of mass of the particles drifts [eq. 21, eq. 22]. The square of the
-/// mean displacement of a replica's particles is stored; its subtraction does not restore diffusion [eq. 23],
+/// The closed chain conserves the total momentum [eq. 3]. The paper's random initial state gives it a value
+/// of order sqrt(nN T), and the centre of mass of the particles drifts [eq. 20, eq. 21]. The square of the
+/// mean displacement of a replica's particles is stored; its subtraction does not restore diffusion [eq. 22],
 /// whereas --zero-total-momentum removes the drift itself. The drift is common to all particles of a replica
 /// and dominates the noise. It is correlated with the total momentum, whose mean square is known, so that it
-/// is a control variate [eq. 33].
+/// is a control variate [eq. 32].
 ///
-/// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t [eq. 19]: 1 is diffusion,
-/// more is superdiffusion, and t/ln t has less; it depends on the age of the chain [eq. 15, eq. 20]. Where
+/// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t [eq. 18]: 1 is diffusion,
+/// more is superdiffusion, and t/ln t has less; it depends on the age of the chain [eq. 14, eq. 19]. Where
 /// momentum is not conserved, by the collision rule or at sigma = 1, there is neither drift nor control
 /// variate.
 #include <algorithm>

@@ -1,12 +1,12 @@
-/// Relaxation of an energy pulse: Delta E_i(t) = <E~_i(t) - E_i(t)> [eq. 44], the energy of cell i (its
+/// Relaxation of an energy pulse: Delta E_i(t) = <E~_i(t) - E_i(t)> [eq. 42], the energy of cell i (its
 /// scatterer and the particles inside) in a chain whose central cells are given more energy at t = 0 [eq.
-/// 43], minus that in the same chain without the pulse.
+/// 41], minus that in the same chain without the pulse.
 ///
-/// The ring is folded about its centre by mirror symmetry [eq. 45] before the moving peak is fitted
+/// The ring is folded about its centre by mirror symmetry [eq. 43] before the moving peak is fitted
 /// (observables/energy_pulse/peak.hpp). At times without a peak, as before it leaves the centre, all
 /// quantities of the peak are NaN, and fits use the other times. The same holds from the time on at which the
 /// two sides of the pulse meet opposite to it, as a later peak may have gone around the ring. For gamma -> 0
-/// the pulse is that of free flight [eq. 47].
+/// the pulse is that of free flight [eq. 44].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -118,7 +118,7 @@ double energy(const PhasePoint& point) {
 
 double sum(const std::vector<double>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
 
-/// State with all momenta in the central cells multiplied by one factor [eq. 43].
+/// State with all momenta in the central cells multiplied by one factor [eq. 41].
 PhasePoint with_pulse(PhasePoint point, const Parameters& parameters) {
   const ClosedChain chain = parameters.ring.chain();
   const std::uint32_t begin = chain.cells / 2 - parameters.pulse_cells / 2;
@@ -140,7 +140,7 @@ PhasePoint with_pulse(PhasePoint point, const Parameters& parameters) {
   return point;
 }
 
-/// Energy of every cell with the pulse minus that without, at the current time of both trajectories [eq. 44].
+/// Energy of every cell with the pulse minus that without, at the current time of both trajectories [eq. 42].
 std::vector<double> energy_difference(const PairDynamics& pair, double time, const ClosedChain& chain) {
   std::vector<double> cells(chain.cells, 0);
   pair.for_each_diverged_particle(time, [&](std::uint32_t, const Particle& plain, const Particle& perturbed) {
@@ -167,7 +167,7 @@ struct Tallies : TallySchema {
 };
 
 /// One replica: means over its pairs of trajectories, with the pulse and without, that start from one state
-/// and use common random numbers [eq. 43, eq. 44].
+/// and use common random numbers [eq. 41, eq. 42].
 std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies, const Replica& replica,
                             TallySums& sums) {
   const ClosedChain chain = parameters.ring.chain();

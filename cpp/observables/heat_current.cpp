@@ -2,13 +2,13 @@
 /// Integrated heat current of a closed chain in the stationary state: Q, the integral over a time t of J_q =
 /// sum of u (u^2/2 - T), as a mean square per cell over all origins of time in a record and over replicas.
 ///
-/// Where collisions conserve momentum, mode coupling predicts [eq. 59]
+/// Where collisions conserve momentum, mode coupling predicts [eq. 55]
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
 /// with A = 0 where momentum is not conserved. The totals of a ring fluctuate: at fixed totals <Q^2> would be
 /// smaller by a part of order t^2/N. Sound must not travel around the ring within the longest time: the panel
-/// refuses such a ring [eqs. 56, 57].
+/// refuses such a ring [eqs. 52, 53].
 #include "observables/heat_current/heat_current.hpp"
 
 #include <cmath>

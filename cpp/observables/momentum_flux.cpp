@@ -1,8 +1,8 @@
-/// Momentum distribution F_N(p, x) of the particles in the stationary state of an open chain [eq. 26]:
+/// Momentum distribution F_N(p, x) of the particles in the stationary state of an open chain [eq. 25]:
 /// crossings per unit time and momentum at every bond, x = bond/N. The integral over a half line is the rate
 /// of crossings; the paper's plots are normalised to 1/2 instead.
 ///
-/// Control variates [eq. 31, eq. 34]: for the flux in a bin, the number of particles injected into it, minus
+/// Control variates [eq. 30, eq. 33]: for the flux in a bin, the number of particles injected into it, minus
 /// the known mean, because some particles cross bonds before they scatter; for rates and moments, numbers,
 /// momenta and energies injected in all. Each group is used if it reduces the variance on average. The jump
 /// at p = 0 is extrapolated by lines through two bins on either side. The kurtosis of one half of F,

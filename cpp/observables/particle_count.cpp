@@ -2,7 +2,7 @@
 /// n_t(p) times |p| at given times.
 ///
 /// The stationary density F(p)/|p| is not normalisable: n_t(p) |p| is stationary only above a front p_0(t)
-/// [eq. 24], and n(t) grows by L (F(0+) + F(0-)) per unit of ln t, with L the length of the chain [eq. 25].
+/// [eq. 23], and n(t) grows by L (F(0+) + F(0-)) per unit of ln t, with L the length of the chain [eq. 24].
 /// p_0 is the momentum of a sharp front below which the plateau of |p| n_t(p) would lack as many particles as
 /// it does, so that it is a smooth function of means.
 #include <algorithm>
@@ -48,13 +48,13 @@ struct Reading {
   const CensusGrid& grid;
   double thermal;
 
-  /// |p| n_t(p), summed over both signs of p, on logarithmic bins at all times [eq. 24].
+  /// |p| n_t(p), summed over both signs of p, on logarithmic bins at all times [eq. 23].
   std::vector<double> speed_density() const {
     const std::vector<double> edges = grid.speeds.points();
     return mean_of(tallies.by_speed, std::log(edges[1] / edges[0]))(mean);
   }
 
-  /// Slopes d n / d ln t between neighbouring times [eq. 25].
+  /// Slopes d n / d ln t between neighbouring times [eq. 24].
   std::vector<double> number_slopes() const {
     const auto number = mean[tallies.number];
     std::vector<double> slopes;
@@ -84,7 +84,7 @@ struct Reading {
     return values;
   }
 
-  /// p_0 [eq. 25] from the particles slower than about 4 free paths per t, where the plateau begins: fewer
+  /// p_0 [eq. 24] from the particles slower than about 4 free paths per t, where the plateau begins: fewer
   /// particles than below its bins have less noise. NaN without a plateau.
   std::vector<double> fronts() const {
     const std::vector<double> edges = grid.speeds.points(), plateau = plateaus();

@@ -1,8 +1,8 @@
 /// Persistence mu(sigma): fraction of the scatterings that conserve the direction of the particle, p' p > 0,
 /// over all particles and both directions.
 ///
-/// In equilibrium mu = arccos(sigma)/pi for elastic collisions [eq. 10]. In a finite chain the conservation
-/// of the total momentum changes it [eq. 11], by an amount that follows from the temperature at which
+/// In equilibrium mu = arccos(sigma)/pi for elastic collisions [eq. 9]. In a finite chain the conservation
+/// of the total momentum changes it [eq. 10], by an amount that follows from the temperature at which
 /// particles and scatterers meet: their mean energies before scatterings are stored.
 #include <bit>
 #include <cstdint>

@@ -1,10 +1,10 @@
 /// Profiles of an open chain in its stationary state, averaged over a window of time: temperatures of
-/// scatterers and particles [eq. 27], density, rates of arrivals, currents [eq. 26], and the momentum
+/// scatterers and particles [eq. 26], density, rates of arrivals, currents [eq. 25], and the momentum
 /// distribution of the end scatterers.
 ///
 /// The temperature of the particles is <p^2>/m over the arrivals at a scatterer, that of the flux, not of the
-/// density. The density includes slow particles, whose number grows logarithmically in time [eq. 25], and
-/// thus depends on the window. All means are corrected by the injection controls [eq. 31, eq. 34].
+/// density. The density includes slow particles, whose number grows logarithmically in time [eq. 24], and
+/// thus depends on the window. All means are corrected by the injection controls [eq. 30, eq. 33].
 /// Differences, deviations and slopes are separate quantities with their own errors, because the noise of
 /// neighbouring cells and bonds is correlated. The bulk of the density is a line through the middle half of
 /// the chain.

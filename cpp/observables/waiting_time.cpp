@@ -2,10 +2,10 @@
 ///
 /// tau = (cells flown) lambda/|u| is known when a flight begins and is recorded then, so that the end of the
 /// run censors no waiting time. The density of the momenta after a scattering is smooth at u = 0, so Psi ~
-/// tau^-2 [eq. 16]. Only at sigma = 0, where collisions exchange momenta, the flux weight |u| of the initial
-/// Gaussian is conserved, and Psi ~ tau^-3 [eq. 17].
+/// tau^-2 [eq. 15]. Only at sigma = 0, where collisions exchange momenta, the flux weight |u| of the initial
+/// Gaussian is conserved, and Psi ~ tau^-3 [eq. 16].
 ///
-/// The exponent is the maximum-likelihood estimate (Hill 1975) for the tail above a cut [eq. 18]. Corrections
+/// The exponent is the maximum-likelihood estimate (Hill 1975) for the tail above a cut [eq. 17]. Corrections
 /// to the power law are of relative size (lambda/tau)^2/T. The cut is twenty thermal flights, and the
 /// exponents for cuts between a third and three times that give the systematic error.
 #include <algorithm>
@@ -104,7 +104,7 @@ std::vector<double> density(std::span<const double> counts, const std::vector<do
   return result;
 }
 
-/// Maximum-likelihood exponents of the tails above the lower edge of every bin [eq. 18]; NaN above all
+/// Maximum-likelihood exponents of the tails above the lower edge of every bin [eq. 17]; NaN above all
 /// counts.
 std::vector<double> exponents(std::span<const double> counts, std::span<const double> log_sums,
                               const std::vector<double>& edges) {

@@ -16,7 +16,7 @@ std::uint64_t StoppingRule::next_look(std::uint64_t used) const {
 
 bool StoppingRule::reached(std::uint64_t used, double excess) {
   const auto freedom = static_cast<double>(used - 1);
-  return used >= least && excess * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.95, freedom)) <= 1;  // [eq. 52]
+  return used >= least && excess * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.95, freedom)) <= 1;  // [eq. 48]
 }
 
 }  // namespace lorentz

@@ -30,7 +30,7 @@ struct ClosedParameters {
   StationaryMeasure stationary_measure() const;
   double hottest() const;  // the higher one of the two temperatures
 
-  /// Mean over replicas of the square of the total momentum [eq. 21].
+  /// Mean over replicas of the square of the total momentum [eq. 20].
   double mean_square_momentum() const;
 
   /// Longest time on a clock of type double that resolves a flight of the hottest particles to 5e-7 of its

@@ -15,7 +15,7 @@
 namespace lorentz {
 
 /// Conservation errors of a closed chain, recorded by every observable of it: absolute relative changes of
-/// the invariants over a replica [eq. 4]. They are purely numerical; what the collision rule does not
+/// the invariants over a replica [eq. 3]. They are purely numerical; what the collision rule does not
 /// conserve is NaN. The scale of the momentum's error is the larger one of sum |p| + sum |P| at the start and
 /// at the end, because scatterers may start at rest and heavy ones acquire large momenta of both signs.
 struct ClosedTallies : TallySchema {
@@ -69,7 +69,7 @@ class ClosedRun {
   double clock(double time) const { return time - clock_start_; }
 
   /// Control variate of mean 0: square of the conserved total momentum over its mean over replicas, minus 1
-  /// [eq. 33]. It is 0 if the momentum is zero or not conserved.
+  /// [eq. 32]. It is 0 if the momentum is zero or not conserved.
   double momentum_control() const;
 
   /// Records the conservation errors so far; returns the number of events.

@@ -11,7 +11,7 @@
 namespace lorentz {
 
 /// Energy and particles that cross the openings, positive to the right. A crossing has the weight 1/2,
-/// because a current is the mean over both openings [eq. 26].
+/// because a current is the mean over both openings [eq. 25].
 struct OpeningCurrents {
   double energy = 0, particles = 0;
 
@@ -26,7 +26,7 @@ struct OpeningCurrents {
 };
 
 /// Control variates of every stationary measurement: numbers, momenta and energies that the reservoirs inject
-/// in a window, minus their exact means [eq. 31].
+/// in a window, minus their exact means [eq. 30].
 class InjectionControls {
  public:
   static constexpr std::size_t count = 6;

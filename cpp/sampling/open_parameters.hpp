@@ -22,7 +22,7 @@ struct OpenParameters {
   OpenChain chain() const;
 
   /// State of a replica at time 0; where it has particles, the state after they have entered for the time
-  /// `age` [eq. 12].
+  /// `age` [eq. 11].
   PhasePoint start_point(double age, const StreamKey& key) const;
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double level = 1e-4, tolerated_gain = 4e-3;
 constexpr std::size_t least = 8;  // replicas; with fewer even ten standard errors could be chance
 
-/// Smallest p-value of the hypotheses that the mean of a column is 0, times their number [eq. 51]. Records
+/// Smallest p-value of the hypotheses that the mean of a column is 0, times their number [eq. 47]. Records
 /// are those left after `fitted` coefficients have been estimated from them. Columns that do not vary are
 /// left out; NaN if none is left, or with too few records.
 double smallest_p_value(const Records& records, const Columns& columns, std::size_t fitted) {

@@ -18,9 +18,9 @@
 
 namespace lorentz {
 
-/// Differences that are 0 on average in a stationary state [eq. 50]: of the second half of the window minus
+/// Differences that are 0 on average in a stationary state [eq. 46]: of the second half of the window minus
 /// the first, and the energy that the chain gains. The particles that it gains tend to 0 as 1/t only, because
-/// slow ones accumulate [eq. 25]; rates of crossings are too low by about this number.
+/// slow ones accumulate [eq. 24]; rates of crossings are too low by about this number.
 struct HalfDifferenceTallies {
   Axis scatterer{"scatterer", "1", "First, middle, last", {0, 1, 2}};
   ScalarTally energy_current, particle_current, energy, particles;
@@ -42,7 +42,7 @@ struct HalfDifferenceTallies {
   Columns halves() const { return columns_of({energy_current, particle_current, temperature}); }
 };
 
-/// Tallies of every stationary state; an observable derives its own from them: control variates [eq. 31] and
+/// Tallies of every stationary state; an observable derives its own from them: control variates [eq. 30] and
 /// those of the test.
 struct StationaryTallies : TallySchema {
   Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
@@ -131,7 +131,7 @@ class WindowHalves {
 
 /// Quantities `stationarity_p_value`, `particle_gain`, as a share of the particles injected, and
 /// `stationary`: 1 if the p-value exceeds 1e-4, so that the test rejects one stationary run in ten thousand
-/// [eq. 51], and the gain, of either sign, does not exceed 4e-3, which goes with a bias of kappa of up to 3
+/// [eq. 47], and the gain, of either sign, does not exceed 4e-3, which goes with a bias of kappa of up to 3
 /// %, by more than three of its standard errors; NaN if one of them is unknown, or this error above 4e-3,
 /// with which the gain could not be seen.
 Group stationarity(const HalfDifferenceTallies& tallies, const OpenChain& chain);

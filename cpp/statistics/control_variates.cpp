@@ -41,7 +41,7 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
   const std::size_t needed = records_needed(varying(x)), rows = x.rows();
   if (needed == 0 || rows < needed) return {};
 
-  // Leave-one-out coefficients b_(i) = b - g_i residual_i / (1 - leverage_i) [eq. 34].
+  // Leave-one-out coefficients b_(i) = b - g_i residual_i / (1 - leverage_i) [eq. 33].
   const Matrix g = transposed(pseudo_inverse(x_centred));
   std::vector<double> left_out(rows);  // g_i.x_i / (1 - leverage_i)
   for (std::size_t i = 0; i < rows; ++i) {

@@ -13,7 +13,7 @@ struct Regression {
   Columns measured, controls;
 };
 
-/// The measured columns of the records, in their order, with the control variates regressed out [eq. 34].
+/// The measured columns of the records, in their order, with the control variates regressed out [eq. 33].
 ///
 /// The controls x have the exact mean 0. A measured column y becomes y - b_(i).x with the leave-one-out
 /// coefficients b_(i) of the linear regression of y on x. A record is independent of its coefficients, so its

@@ -39,7 +39,7 @@ struct Estimates {
 };
 
 /// f of the mean record with its leave-one-out jackknife error over replicas (Efron & Stein, Ann. Stat. 9,
-/// 586 (1981)), se^2 = (R-1)/R sum_r (f_(r) - mean of f_(r))^2 [eq. 49]. Valid for independent replicas and
+/// 586 (1981)), se^2 = (R-1)/R sum_r (f_(r) - mean of f_(r))^2 [eq. 45]. Valid for independent replicas and
 /// smooth f. The bias of f, of order 1/R, is not corrected; se^2 is biased upwards. With fewer than two
 /// replicas the error is NaN.
 Estimates jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f);

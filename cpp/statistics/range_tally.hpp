@@ -9,7 +9,7 @@
 namespace lorentz {
 
 /// Arrays of sums, `kinds` of them, to which values are added over a range of elements at a cost that does
-/// not depend on its length: a difference array, summed once at the end [eq. 35]. Single elements, the only
+/// not depend on its length: a difference array, summed once at the end [eq. 34]. Single elements, the only
 /// ranges at gamma = N, are added to an array of their own, which touches one cache line instead of two.
 template <std::size_t kinds = 1>
 class RangeTally {

@@ -75,7 +75,7 @@ def exact_gain(
     p: np.ndarray, sigma: float, rates: tuple[float, float], temperatures: tuple[float, float]
 ) -> np.ndarray:
     """Momentum density of the particles that leave a single scatterer which every particle meets: the Fourier
-    integral of [eq. 38] with the exact transforms of half Gaussians."""
+    integral of [eq. 36] with the exact transforms of half Gaussians."""
 
     def transform(k: np.ndarray) -> np.ndarray:
         left, right = (wofz(sign * k * np.sqrt(t / 2)) for sign, t in zip((1, -1), temperatures, strict=True))

@@ -12,7 +12,7 @@ from workflow.figures import fig07_inset, fig09, fig10
 
 
 def test_fig05() -> None:
-    """In a ring of N = 11, n = 20 at T_0 = 400, particles and scatterers meet at T = 1200 [eq. 11], in
+    """In a ring of N = 11, n = 20 at T_0 = 400, particles and scatterers meet at T = 1200 [eq. 10], in
     which the total momentum has the mean square nNT_0, or 0."""
     sigma = np.array([-0.5, 0.5])
     runs = [

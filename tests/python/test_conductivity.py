@@ -68,7 +68,7 @@ def test_every_rule_conducts_where_it_exchanges_energy(
 
 
 def test_conductivities_are_those_of_the_currents_and_temperatures(program: Program, tmp_path: Path) -> None:
-    """[eq. 28]. That of heat leaves out the energy that particles carry: T each on average, the mean of both
+    """[eq. 27]. That of heat leaves out the energy that particles carry: T each on average, the mean of both
     ends. Detected mistakes: the sign; N - 1 gradients; another temperature."""
     program("conductivity", cells=5, replicas=32, observation_time=20)
     result = load(tmp_path / "out.h5")
@@ -84,7 +84,7 @@ def test_conductivities_are_those_of_the_currents_and_temperatures(program: Prog
 def test_slow_particles_that_accumulate_bound_the_error_of_the_current(
     program: Program, tmp_path: Path
 ) -> None:
-    """Without scattering J_n is exactly 40 [eq. 30]. Particles slower than a chain length per time are still
+    """Without scattering J_n is exactly 40 [eq. 29]. Particles slower than a chain length per time are still
     inside; each is missing at one opening, so that a current, the mean of both, lacks at most half of
     them."""
     window = {"relaxation_time": 10, "observation_time": 100}

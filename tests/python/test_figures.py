@@ -54,7 +54,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
         mu, row = load(path)["mu"], table[table.particles_per_cell == int(path.stem)]
         assert row.mu.item() == pytest.approx(float(mu.mean), rel=1e-11)
         assert row.mu_error.item() == pytest.approx(float(mu.standard_error), rel=1e-11)
-    # From scatterers at rest that are heavier, the conserved momentum lowers mu [eq. 11].
+    # From scatterers at rest that are heavier, the conserved momentum lowers mu [eq. 10].
     assert (table.at_momentum < table.law).all()
 
 

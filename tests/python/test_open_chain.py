@@ -128,7 +128,7 @@ def test_number_of_particles_against_the_reference_simulator(measure: Measure) -
 
 
 def test_front_of_free_flight(measure: Measure) -> None:
-    """Without scattering [eq. 24] is exact in a chain of one cell, which is a path long. Detected
+    """Without scattering [eq. 23] is exact in a chain of one cell, which is a path long. Detected
     mistakes: without the particles below the bins p_0 is a tenth larger at the last time; where |p| n(p)
     is half of the plateau is e/2 p_0."""
     times = (20, 60, 200)
@@ -180,7 +180,7 @@ def mean_flight(cells: int, probability: float) -> float:
 
 @pytest.mark.parametrize("gamma", ["N", 13.7])
 def test_front_of_a_filling_chain(measure: Measure, gamma: str | float) -> None:
-    """Flights of k cells are populated up to the speed kλ/t. [eq. 25] is that of k = 1, with half a cell
+    """Flights of k cells are populated up to the speed kλ/t. [eq. 24] is that of k = 1, with half a cell
     at the openings. Detected mistake: λN/γ in place of the mean, 20 % less at γ = 13.7."""
     cells, times = 37, np.array([100, 250, 700])
     run = EQUAL | {"cells": cells, "gamma": gamma, "cell_length": "1/N", "replicas": 40}

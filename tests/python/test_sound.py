@@ -35,7 +35,7 @@ def moment(power: int, sign: int) -> Expr:
 
 
 def fields_and_currents() -> tuple[Matrix, Matrix]:
-    """g and e per length and their currents [eq. 55] in T and w, at a fixed flux F(0) of slow particles."""
+    """g and e per length and their currents [eq. 51] in T and w, at a fixed flux F(0) of slow particles."""
     z = flux * second_order(exp(w**2 / (2 * T)))
     fields = z * moment(0, -1) + M * w / length, z * moment(1, 1) / 2 + (T + M * w**2) / (2 * length)
     currents = z * moment(1, 1), z * moment(2, -1) / 2
@@ -100,12 +100,12 @@ def test_quasi_stationary_estimate_conserves_energy(particles: int) -> None:
     temperature, slow = quasi_stationary(particles, 500, 1, time)
     np.testing.assert_allclose(particles * temperature / slow + temperature, particles * 500)
     np.testing.assert_allclose(temperature[-1], particles * 500, rtol=particles / 80)  # the energy saturates
-    expected = np.log(time[1] * np.sqrt(2 * temperature[1])) - np.euler_gamma / 2 + 1  # eq. 13 at late times
+    expected = np.log(time[1] * np.sqrt(2 * temperature[1])) - np.euler_gamma / 2 + 1  # eq. 12 at late times
     np.testing.assert_allclose(slow[1], expected, rtol=1e-6)
 
 
 def test_the_speed_of_sound_before_the_pulse() -> None:
-    """ζ = n/2Λ, and T conserves the energy [eqs. 13, 14, 56], in cells of length 2."""
+    """ζ = n/2Λ, and T conserves the energy [eqs. 12, 13, 52], in cells of length 2."""
     options = {
         "particles_per_cell": 50,
         "energy": 5000,

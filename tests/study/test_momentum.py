@@ -24,7 +24,7 @@ def observed(series: str, times: Sequence[float], power: float, **options: objec
 
 
 def test_sound_must_not_come_around() -> None:
-    """M = 3, ζ = 0.25, t = 10: c = (2/21)^(1/2) and λ_s = 10/21 · 3.5^(-1/2) [eqs. 56, 57], so that both
+    """M = 3, ζ = 0.25, t = 10: c = (2/21)^(1/2) and λ_s = 10/21 · 3.5^(-1/2) [eqs. 52, 53], so that both
     peaks with their widths need 2 (3.086 + 0.7145 · 1.864) = 8.84 cells."""
     time = [5.0, 10.0]
     chain(observed("thin", time, 1.3, cells=9))

@@ -1,5 +1,5 @@
 """Fig. 5: persistence mu against the mass ratio sigma, with the law arccos(sigma)/pi, and with what the
-conservation of the total momentum makes of it [eq. 11]."""
+conservation of the total momentum makes of it [eq. 10]."""
 
 from collections.abc import Sequence
 
@@ -27,7 +27,7 @@ COLD = 0.8  # energy of a scatterer over that of a particle as they meet: below 
 
 
 def at_momentum(result: Result) -> float:
-    """mu by eq. 11 for the measured temperature: at large N and n, collisions have a common T, which is twice
+    """mu by eq. 10 for the measured temperature: at large N and n, collisions have a common T, which is twice
     the mean energy of particles and of scatterers before them. Their energy leaves the rest of E to slow
     particles."""
     sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])

@@ -33,8 +33,8 @@ FRAME = 1.15  # over the largest peak: the scatterer of the central cell does no
 
 
 def sound_speed(rest: Result) -> float:
-    """Speed of sound [eq. 56] in cells per time, at gamma = N, from scatterers at rest, without the pulse: at
-    the temperature and with the slow particles of eqs. 13 and 14 at the end of its relaxation."""
+    """Speed of sound [eq. 52] in cells per time, at gamma = N, from scatterers at rest, without the pulse: at
+    the temperature and with the slow particles of eqs. 12 and 13 at the end of its relaxation."""
     options = rest.parameters
     particles, length = float(options["particles_per_cell"]), float(options["cell_length"])
     before = 2 * float(options["energy"])  # temperature of the particles at the start

@@ -51,7 +51,7 @@ def drifts(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def exact_current(result: Result) -> float:
-    """J_U of ballistic particles or momenta, of which a fraction is transmitted: 1 without walls [eq. 36]."""
+    """J_U of ballistic particles or momenta, of which a fraction is transmitted: 1 without walls [eq. 35]."""
     require("the exact energy current", [result])
     sigma, gamma = float(result.parameters["sigma"]), result.parameters["gamma"]
     if min(abs(sigma), 1 - abs(sigma), math.inf if gamma == "N" else float(gamma)) > EXTREME:

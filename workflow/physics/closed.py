@@ -14,7 +14,7 @@ def persistence_law(sigma: np.ndarray) -> np.ndarray:
 
 
 def persistence_at_momentum(sigma: float, total_mass: float, momentum: float) -> float:
-    """Persistence where the total momentum is conserved [eq. 11]. total_mass: variance that it would have if
+    """Persistence where the total momentum is conserved [eq. 10]. total_mass: variance that it would have if
     the momenta were independent, over T; momentum: its mean square, over T."""
     reduction = (1 - momentum / total_mass) / total_mass
     return float(np.arccos((sigma + reduction) / (1 - reduction)) / np.pi)
@@ -22,7 +22,7 @@ def persistence_at_momentum(sigma: float, total_mass: float, momentum: float) ->
 
 def quasi_stationary(particles: float, start: float, length: float, time: ArrayLike) -> np.ndarray:
     """Temperature T and logarithm Λ of a chain from scatterers at rest, at the given times: T solves eq.
-    14, in which Λ [eq. 13] depends on T. particles: per cell; start: temperature of the particles at the
+    13, in which Λ [eq. 12] depends on T. particles: per cell; start: temperature of the particles at the
     start; length: of a cell."""
     solutions = []
     for moment in np.atleast_1d(time):

@@ -1,9 +1,9 @@
 """Heat in rings: fig. 8's own gas, with noise in the collisions, and at a density that does not depend on N.
 
-Q is the heat current of a ring, integrated over its cells and a time [eq. 58]; <Q²> ~ t^β. (a) Fig. 8's
+Q is the heat current of a ring, integrated over its cells and a time [eq. 54]; <Q²> ~ t^β. (a) Fig. 8's
 conductivity of heat, and the Green-Kubo value of rings of its gas at the time in which sound crosses the
-chain [eq. 61]. (b) In a fraction of the collisions the momenta of the particle, its scatterer and a
-neighbouring one are rotated, which conserves energy and momentum [eq. 60], or the momentum of the scatterer
+chain [eq. 56]. (b) In a fraction of the collisions the momenta of the particle, its scatterer and a
+neighbouring one are rotated, which conserves energy and momentum [eq. 4], or the momentum of the scatterer
 is reversed, which conserves energy alone.
 """
 

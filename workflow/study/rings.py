@@ -24,7 +24,7 @@ def epsilon(result: Result) -> float:
 
 def chain(result: Result) -> Chain:
     """The gas of a ring. Raises ValueError if sound travels around the ring within its last time: two peaks
-    meet after half of it, as wide as their root mean square [eq. 57]."""
+    meet after half of it, as wide as their root mean square [eq. 53]."""
     temperature, length = (result.parameters[name] for name in ("temperature", "cell_length"))
     gas = Chain(result.parameters["fugacity"] * length, run_parameters.mass(result), temperature, length)
     time = result["mean_square_heat"].axes["time"][-1]
@@ -47,7 +47,7 @@ def gas(result: Result) -> tuple[str | float, ...]:
 
 def green_kubo(result: Result, temperature: float, length: float) -> tuple[int, float, float]:
     """N of the chain of fig. 8 that holds this gas, and its conductivity of heat per cell by Green and Kubo
-    at the last time of the ring [eq. 61], with its error. temperature, length: of the chain."""
+    at the last time of the ring [eq. 56], with its error. temperature, length: of the chain."""
     heat, own = result["mean_square_heat"], chain(result)
     cells = round(SLOW_FLUX / own.zeta)
     speed = cells * temperature**0.5 / length  # √T̄/λ of the chain

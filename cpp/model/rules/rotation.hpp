@@ -11,7 +11,7 @@ namespace lorentz {
 
 /// Elastic collision, after which, with a given probability, the momenta of the particle, of its scatterer
 /// and of a neighbouring scatterer move to a uniformly random point on the circle of equal total energy and
-/// momentum: noise that conserves both [eq. 60].
+/// momentum: noise that conserves both [eq. 4].
 ///
 /// In energy-normalised velocities (u, U, U') energy is the square of the length, and momentum the component
 /// along n = (1, sqrt(M), sqrt(M))/sqrt(1 + 2M), so that the circle is a rotation about n by an angle uniform

@@ -13,7 +13,7 @@
 namespace lorentz {
 
 /// Tallies of the currents through the openings, means of both, and the temperatures of the end cells [eq.
-/// 26, eq. 27], with the control variates of the latter.
+/// 25, eq. 26], with the control variates of the latter.
 struct EndTallies : StationaryTallies {
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
   ScalarTally energy_current = tally("energy_current", "energy/time", "J_U, positive to the right");

@@ -7,7 +7,7 @@
 
 namespace lorentz {
 
-/// Control variate for the mean energy of one scatterer with random scattering, gamma < N [eq. 32].
+/// Control variate for the mean energy of one scatterer with random scattering, gamma < N [eq. 31].
 ///
 /// A collision changes U^2 by g = (c u + sigma U)^2 - U^2, c^2 = 1 - sigma^2. An arriving particle is
 /// scattered with probability q = gamma/N, independently of the past. With s = 1 if it is scattered and s = 0

@@ -6,11 +6,11 @@
 
 namespace lorentz {
 
-/// Mean of both sides of a profile on a ring, at the distances d = 0, 1, ... from the central cell [eq. 45].
+/// Mean of both sides of a profile on a ring, at the distances d = 0, 1, ... from the central cell [eq. 43].
 std::vector<double> folded(std::span<const double> profile);
 
 /// Half the difference, right minus left side, of a profile on a ring, at the distances d = 1, 2, ... less
-/// than half the ring. Its mean is 0 by mirror symmetry [eq. 45].
+/// than half the ring. Its mean is 0 by mirror symmetry [eq. 43].
 std::vector<double> odd_part(std::span<const double> profile);
 
 /// Interval of distances from the centre in which a peak is fitted.

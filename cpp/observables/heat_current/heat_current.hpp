@@ -10,7 +10,7 @@
 namespace lorentz {
 
 /// Observer of the total heat current of a closed chain, J_q = sum of u (u^2/2 - T) over all particles
-/// [eq. 58], which is constant between two collisions: its integrals over blocks of time are exact. A rule
+/// [eq. 54], which is constant between two collisions: its integrals over blocks of time are exact. A rule
 /// that changes a neighbouring scatterer carries energy over one cell at once.
 class HeatCurrent {
  public:

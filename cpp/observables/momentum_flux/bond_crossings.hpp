@@ -35,7 +35,7 @@ struct BondTallies : StationaryTallies {
   std::size_t bonds() const { return bond.values.size(); }
 };
 
-/// Mean number of particles that a reservoir injects into a bin during the window [eq. 31].
+/// Mean number of particles that a reservoir injects into a bin during the window [eq. 30].
 inline double expected_injections(const OpenChain& chain, const Window& window, const Bins& bins,
                                   std::size_t bin) {
   const double a = std::abs(bins.edge(bin)), b = std::abs(bins.edge(bin + 1));
@@ -43,7 +43,7 @@ inline double expected_injections(const OpenChain& chain, const Window& window, 
   return (window.end - window.begin) * source.rate * source.probability(std::min(a, b), std::max(a, b));
 }
 
-/// Observer that fills BondTallies [eq. 26].
+/// Observer that fills BondTallies [eq. 25].
 class BondCrossings {
  public:
   BondCrossings(const OpenChain& chain, const Window& window, const Bins& bins)

@@ -19,7 +19,7 @@ struct CensusGrid {
 
   std::vector<double> times;  // of the momentum distributions
   Bins bins;
-  /// Logarithmic bins of |p|, from a tenth of the free path over the last time on, below the front [eq. 25].
+  /// Logarithmic bins of |p|, from a tenth of the free path over the last time on, below the front [eq. 24].
   LogGrid speeds;
   std::vector<double> number_times;  // three decades, or more where the first of `times` is earlier
   double free_path;
@@ -40,7 +40,7 @@ struct CensusGrid {
   }
 };
 
-/// Tallies of the particles inside an open chain at given times [eq. 24].
+/// Tallies of the particles inside an open chain at given times [eq. 23].
 struct CensusTallies : TallySchema {
   Axis time, p, speed, number_time;
   Tally momentum =

@@ -40,7 +40,7 @@ struct CellTallies : StationaryTallies {
 };
 
 /// Passages of the marks of a chain in one direction during a window, and the times that particles spend in
-/// the cells [eq. 35].
+/// the cells [eq. 34].
 ///
 /// A flight that lies in the window is added to its range of bonds only: each bond implies one arrival at the
 /// scatterer behind it, if there is one, and a stay of time_per_half_cell in each of its two half cells.
@@ -102,7 +102,7 @@ class CellStream {
   RangeTally<> residence_;
 };
 
-/// Observer that fills CellTallies [eq. 26, eq. 27].
+/// Observer that fills CellTallies [eq. 25, eq. 26].
 class CellProfile {
  public:
   CellProfile(const OpenChain& chain, const Window& window, const Bins& bins)

@@ -151,7 +151,7 @@ TEST(KineticEquation, ExchangeOfTheBathsMirrorsTheChain) {
   }
 }
 
-// Currents of number, momentum and energy do not depend on x [eq. 40], also where the series is coarse,
+// Currents of number, momentum and energy do not depend on x [eq. 38], also where the series is coarse,
 // without scattering, and with one bath.
 TEST(KineticEquation, CurrentsAreConstant) {
   KineticProblem one_bath = problem(0.5, 1);
@@ -195,7 +195,7 @@ TEST(KineticEquation, EquilibriumStays) {
     }
 }
 
-// The derivative of G at a Maxwellian has the eigenvalues of eq. 42. Detected mistake: those of -sigma.
+// The derivative of G at a Maxwellian has the eigenvalues of eq. 40. Detected mistake: those of -sigma.
 TEST(CollisionOperator, DerivativeHasTheEigenvaluesOfHermiteFunctions) {
   constexpr std::size_t order = 9;
   for (const double sigma : {-0.7, 0.5}) {

@@ -155,7 +155,7 @@ TEST(StoppingRule, CoverageForSkewedRecords) {
   }
 }
 
-// [eq. 53], of exponential records (s = 1, g = 2, v = 1) under both kinds of target, and of lognormal ones.
+// [eq. 49], of exponential records (s = 1, g = 2, v = 1) under both kinds of target, and of lognormal ones.
 // Detected mistakes: another sign, the bias of the other kind of target.
 TEST(StoppingRule, BiasIsThatOfFirstOrder) {
   constexpr double s = 0.5, w = 1.2840254166877414;  // exp(s^2)
