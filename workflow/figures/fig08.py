@@ -102,8 +102,7 @@ def draw(results: Sequence[Result]) -> Parts:
             draw_guide(above, part, slope, power)
             style.guide_at(below, slope, text)
         above.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
-        name = rf"$\gamma = {gamma}$"
-        below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, label=name, **look)
+        below.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
         heat, error = part.heat_exponent_to_next, part.heat_exponent_to_next_error
         below.errorbar(APART * part.between, heat, error, **style.points(*looks[gamma], "white"))
     for gamma, line in theory.groupby("gamma"):
@@ -115,12 +114,8 @@ def draw(results: Sequence[Result]) -> Parts:
     above.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
     below.set_ylabel(r"$d\ln\kappa/d\ln N$")
     above.margins(x=0.13)  # room for the names of the guides
+    above.plot([], [], "o", color="grey", markerfacecolor="white", label="open: heat alone")
     handles, labels = above.get_legend_handles_labels()
-    above.legend(handles[::-1], labels[::-1], loc="upper left")
-    below.plot([], [], "o", color="grey", markerfacecolor="white", label="heat alone")
-    beside_mean_field = (0.56, 0)
-    below.legend(
-        loc="lower center", bbox_to_anchor=beside_mean_field, ncols=3, columnspacing=1, handletextpad=0.2
-    )
+    figure.legend(handles[::-1], labels[::-1], loc="outside upper left", ncols=2)
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])
     return figure, whole, caption(table)

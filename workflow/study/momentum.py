@@ -90,8 +90,8 @@ def gases(elastic: pd.DataFrame, control: pd.DataFrame) -> Iterator[Line]:
         yield rf"$\zeta = {zeta}$, $M = {mass}$", look, gas
 
 
-def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
-    """Plots β with guides at diffusion and at 4/3."""
+def draw_exponents(axes: Axes, lines: Iterable[Line], corner: str) -> None:
+    """Plots β with guides at diffusion and at 4/3. corner: of the legend."""
     for label, look, part in lines:
         known = part.dropna(subset="middle")
         error = known.local_exponent_error
@@ -99,7 +99,7 @@ def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
     style.guide_at(axes, 1, "1")
     style.guide_at(axes, 4 / 3, "4/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"exponent $\beta$")
-    axes.legend(loc="upper right")
+    axes.legend(loc=corner, bbox_to_anchor=(0, 0.05, 1, 0.95))  # above the guide at 1
 
 
 def caption(sizes: pd.DataFrame) -> str:
@@ -130,10 +130,10 @@ def draw(results: Sequence[Result]) -> Parts:
     figure, axes = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
     axes[2].sharey(axes[1])
     draw_own_gas(axes[0], sizes)
-    draw_exponents(axes[1], noise(control))
-    draw_exponents(axes[2], gases(table[table.rule == "elastic"], control))
+    draw_exponents(axes[1], noise(control), "upper right")
+    draw_exponents(axes[2], gases(table[table.rule == "elastic"], control), "lower left")
     low, high = axes[2].get_ylim()
-    axes[2].set_ylim(low, high + 0.27 * (high - low))  # room for the legends
+    axes[2].set_ylim(low, high + 0.27 * (high - low))  # room for the legend of (b)
     zeta, mass = rings.texts(broken.zeta, broken.mass)
     titles = "fig. 8 and its own gas", rf"noise, $\zeta = {zeta}$, $M = {mass}$", "gases of one density"
     for panel, text in zip(axes, titles, strict=True):
