@@ -75,7 +75,7 @@ def test_accuracy_has_a_floor_for_a_significant_deviation_and_kinetic_equations(
     assert dashed == [[pytest.approx(0.2)] * 2]
     assert_line(axes, [1, 2], [0.1, 0.01])
     names = {
-        "cold start, relaxed for 7: 20.0(1.3) %",
+        "cold start, relaxed for 7: −20.0(1.3) %",
         *(rf"kinetic equation, $\gamma = {gamma}$" for gamma in (1, 5)),
     }
     assert {text.get_text() for text in axes.texts} == names
@@ -121,5 +121,5 @@ def test_stability() -> None:
     assert [label.get_text() for label in extremes.get_yticklabels()] == [*limits]
     assert_points(drifts, *(([100, 1e4], [each, 100 * each], 0) for each in (0.1, 0.3, 1.0, 3.0)))
     assert_line(drifts, [100, 1e4], 2.0**-53 * np.array([10, 100]))
-    assert "by at most 0.1 standard errors" in caption
+    assert "at most 0.1 standard errors" in caption
     assert "by 1.0·10¹ as computed here. The paper's formula changes it by 1.0·10²." in caption

@@ -99,6 +99,8 @@ claim("growth.linear", {"fig08": {"kappa": kappa, "stationary": still}}, by_octa
 # differ.
 last_octaves = {"light-longest": 1.31, "dense-longest": 1.32, "sparse-longest": 1.35, "thin-longest": 1.2}
 last_octaves |= {"light-rotation": 1.44, "light-reversal": 1.1, "thin-rotation": 1.3, "thin-reversal": 1.05}
+last_octaves |= {"gas-16": 1.44, "gas-32": 1.43, "gas-64": 1.36, "gas-128": 1.26}
+last_octaves |= {"gas-256": 1.18, "gas-512": 1.13, "gas-1024": 1.06, "gas-2048": 1.01}
 
 
 def octaves(run: Run, middle: np.ndarray) -> np.ndarray:
@@ -106,7 +108,8 @@ def octaves(run: Run, middle: np.ndarray) -> np.ndarray:
 
 
 rings = {"momentum": {"local_exponent": octaves, "mean_square_heat": 1}}
-claim("growth.superdiffusive", rings, [1.31, 1.32, 1.35, 1.2])
+claim("growth.superdiffusive", rings, [1.44, 1.43, 1.36, 1.26, 1.18, 1.13, 1.06, 1.01])
+claim("growth.superdiffusive_at_fixed_density", rings, [1.31, 1.32, 1.35, 1.2])
 claim("growth.without_momentum", rings, [0.34, 0.25])
 
 
@@ -124,7 +127,9 @@ damped = {
     "peak_position": 10,
     "energy_difference": lambda _run, _t, x: (x > 1) & (x < x.max() - 1),
 }
-claim("pulse.damping", {"fig09a": damped}, [(0.64 + 3, 0.02)])  # the last octave begins at t = 0.05
-# Octaves that begin at t = 0.008 and 0.0125, where the peak of free flight is √(2 · 50000) t cells away.
-biases = [3 / 4 / 6 / 1e5 / begin**2 / math.log(2) for begin in (0.008, 0.0125)]
+# Octaves from t = 0.04 and from 0.063 on. Those before begin before 0.032.
+claim("pulse.damping", {"fig09a": damped}, [(0.64 + 2, 0.02), (0.64 + 3, 0.02)])
+# At the ends of an octave the peak of free flight is s = √(2 · 50000) t cells away, and lower by 1/(6 s²).
+ends = [(0.01, 0.016), (0.016, 0.025)]
+biases = [(a**-2 - b**-2) / 6e5 / math.log(b / a) for a, b in ends]
 claim("pulse.damping_rare", {"fig09b": damped}, [*zip((0.64, 1.64), biases, strict=True)])

@@ -69,9 +69,10 @@ def test_momentum() -> None:
     heat = 7 * np.array([16, 32.0])
     error = errors_of(np.array([60.0, 90]))[-1] / 90
     assert_points(sizes, ((16, 32), heat, 0.01 * heat), ((16,), [green_kubo], [error * green_kubo]))
-    for part, growth in ((noise, (0.3, 0.1, 0.2)), (gases, (0.3, 0.25))):
+    own = (3,), [1.4], errors_of(np.array([1.4]))
+    for part, growth, more in ((noise, (0.3, 0.1, 0.2), []), (gases, (0.3, 0.25), [own])):
         betas = [np.array([1 + a, 1 + a]) for a in growth]
-        assert_points(part, *((octaves, y, errors_of(y)) for y in betas))
+        assert_points(part, *((octaves, y, errors_of(y)) for y in betas), *more)
     ratio = table.ratio.dropna().item()
     assert ratio == pytest.approx(green_kubo / 7 / 16)
     assert f"{ratio:.2f}" in caption

@@ -49,7 +49,7 @@ def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, tm
     page = rendered(judged(verdict), WITHOUT_PANELS, tmp_path, release=False).decode()
     style = VERDICTS[verdict].outcome.name.lower()
     answer = page[page.index('<ul id="answer">') :].partition("</ul>")[0]
-    assert answer.count(f'<span class="{style}">{verdict}</span>') == 5
+    assert answer.count(f'<span class="{style}">{verdict}</span>') == 6
     claims = len(read_claims(ROOT))
     assert page.count(f'<td class="{style}"') == claims
     lines = numbers_file(judged(verdict)).decode().splitlines()

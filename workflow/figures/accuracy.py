@@ -32,7 +32,7 @@ NAMES = {
     "crossings": "$F(p)$",
     "damping_exponent": "damping of a pulse",
     "exponent": r"exponent of $\Psi$",
-    "log_slope": "$n(t)$",
+    "log_slope": r"$dn/d\ln t$",
     "mu": r"$\mu$",
     "temperature_scatterer": "$T$ profile",
 }
@@ -81,13 +81,13 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 def typical(sampled: pd.DataFrame) -> pd.DataFrame:
     """Runs with a line: kappa of the smallest chain of 16 cells or more, of one between, and of the largest;
-    of any other quantity the one of median cost."""
+    of any other quantity the one of median cost, of two the costlier."""
     kappa = sampled[sampled.quantity == "kappa"]
     kappa = kappa[kappa.gamma == max(kappa.gamma, default="")].sort_values("cells")  # N is after any digit
     kappa = kappa[kappa.cells >= min(16, kappa.cells.max())].drop_duplicates("cells")
     kappa = kappa[kappa.cells.isin(kappa.cells.quantile([0, 0.5, 1], interpolation="higher"))]
     others = sampled[sampled.quantity != "kappa"].sort_values("cost_of_1_percent").groupby("quantity")
-    chosen = [part.iloc[[(len(part) - 1) // 2]] for _, part in others]
+    chosen = [part.iloc[[len(part) // 2]] for _, part in others]
     return pd.concat([*chosen, kappa])
 
 
@@ -116,7 +116,7 @@ def draw_errors(axes: Axes, table: pd.DataFrame, lines: pd.DataFrame) -> None:
         axes.plot(run.cpu_seconds, run.error, "o", color=color)
         ends.append((name, frame[1], errors[1], color))
     for run in biased.itertuples():
-        percent = format_with_error(100 * abs(run.deviation), 100 * run.deviation_error)
+        percent = format_with_error(100 * run.deviation, 100 * run.deviation_error)
         name = f"{run.series} start, relaxed for {format_number(run.relaxation_time)}: {percent} %"
         axes.axhline(abs(run.deviation), color=style.BLACK, linestyle="dashed", zorder=0)
         ends.append((name, frame[1], abs(run.deviation), style.BLACK))

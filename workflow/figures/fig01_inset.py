@@ -26,7 +26,7 @@ UNITS = {"slope": "1", "slope_time": "time", "number": "1", "number_fitted": "1"
 SURE = 3  # standard errors above which a curvature is significant
 APART = 3  # number of time steps of a slope; slopes between neighbouring times would have large errors
 NUMBER = style.points("o", style.BLUE)
-HEIGHT = style.points("s", style.VERMILLION, "white", label=r"$|p|\,[n_t(p) + n_t(-p)]$")
+HEIGHT = style.points("s", style.VERMILLION, "white", label=r"$|p|\,n_t(|p|)$")
 
 
 def straight(result: Result) -> bool:

@@ -44,7 +44,7 @@ def caption(results: Sequence[Result]) -> str:
 
 @plots("deterministic rare")
 def draw(results: Sequence[Result]) -> Parts:
-    figure, (above, below) = style.stacked(1.7, 1, height=1.5)
+    figure, (above, below) = style.stacked(1.7, 1, height=1.5, width=1.1)
     tables = [tabulate(result) for result in results]
     looks = style.by_gamma(map(run_parameters.gamma, results))
     for result, table in zip(results, tables, strict=True):
@@ -57,6 +57,6 @@ def draw(results: Sequence[Result]) -> Parts:
     for axes in (above, below):
         axes.axvspan(0.25, 0.75, **style.WINDOW)
     above.set(ylabel=r"particles per cell, $\rho(x)$", xlim=(0, 1))
-    below.set(xlabel="$x$", ylabel=r"$\rho$ over bulk line")
+    below.set(xlabel="position $x$", ylabel=r"$\rho$ / bulk line")
     above.legend(loc="upper right")
     return figure, pd.concat(tables), caption(results)

@@ -38,8 +38,8 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     )
     far = table.loc[table.particle_minus_scatterer.abs().idxmax()]
     text = """The paper finds one temperature of scatterers and particles, which does not reach the baths.
-        (a) Points: scatterers; lines: particles. The first scatterer has {first}. (b) Their difference,
-        measured in the same runs, is largest at γ = {gamma}."""
+        (a) Points: scatterers; lines: particles. The first scatterer has {first}. (b) Particles minus
+        scatterers, largest at γ = {gamma}."""
     return fill(text, first=first, gamma=far.gamma)
 
 
@@ -67,7 +67,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.set(ylabel=f"temperature ({style.UNIT_SYSTEM})", xlim=(0, 1))
     style.second_axis(above, 0.5, "kinetic energy $E_K$")
     below.axhline(0, **style.GUIDE)
-    below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")
+    below.set(xlabel="position $x$", ylabel="temperature, particles\nminus scatterers")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     table = pd.concat(tables, ignore_index=True)
     return figure, table, caption(results, table)

@@ -68,7 +68,7 @@ def caption(results: Sequence[Result], largest: float) -> str:
     text = f"""The paper finds that the distribution F(p, x) jumps at p = 0. (a) At the ends it
         jumps by {{left}} and {{right}}. (b) Each half divided by a Gaussian of its own rate and second
         moment, where F exceeds {100 * OFTEN:g} % of its maximum: up to {{largest}} % off. Dotted:
-        at equal temperatures and unequal rates they are no Gaussians either."""
+        equal temperatures, unequal rates. Flat halves: the injected Gaussians."""
     return fill(text, left=left, right=right, largest=f"{largest:.2g}")
 
 
@@ -91,7 +91,7 @@ def draw(results: Sequence[Result]) -> Parts:
     if EQUAL in map(case, results):
         below.plot([], [], color="grey", linestyle="dotted", label="$T_L = T_R$")
         below.legend(loc="best")
-    below.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F$ over Gaussian,\nminus 1 / %")
+    below.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F$ / Gaussian\nminus 1, in %")
     above.legend(loc="upper right")
     outgoing = float(departure[table.case == PAPERS].abs().max())
     return figure, table, caption(results, outgoing)

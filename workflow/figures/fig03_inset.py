@@ -22,7 +22,7 @@ from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, amplitudes, at_centr
 TITLE = "Deviation of finite chains from the kinetic equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1/momentum")
 
-LIMITS = {0.1: "bound", 0.01: "bound,\nlongest"}  # of the deviation in the paper, in %
+BOUND, OF_LONGEST = 0.1, 0.01  # of the deviation in the paper, in %
 UNIT = r"%, at $\int F\,dp = 1$"
 
 
@@ -48,8 +48,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     style.against_size(axes, points.cells)
     axes.set_yscale("log")
     axes.margins(y=0.2)  # room for the legend
-    for bound, name in LIMITS.items():
-        style.guide_at(axes, bound, name)
+    style.guide_at(axes, BOUND, "bound")
+    style.guide_at(axes, OF_LONGEST, f"bound,\n$N = {points.cells.max()}$")
     axes.set(ylabel=f"$|F_N - F|$ / {UNIT}")
     axes.legend(loc="lower left", bbox_to_anchor=(0, 0.2))
 
@@ -59,9 +59,8 @@ def caption(table: pd.DataFrame) -> str:
         f"{format_with_error(100 * row.amplitude, 100 * row.error)} % at N = {row.cells}"
         for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
-    first, longest = LIMITS
-    text = f"""The paper finds F_N − F, chain minus kinetic equation, below {first} %, and {longest} % in the
-        longest chain, if F integrates to 1. (a), (b) Particles that leave (points); lines: mean field.
+    text = f"""The paper finds F_N − F, chain minus kinetic equation, below {BOUND} %, and {OF_LONGEST} % in
+        the longest chain, if F integrates to 1. (a), (b) Particles that leave (points); lines: mean field.
         (c) As p → 0: {{largest}}."""
     return fill(text, largest=largest)
 

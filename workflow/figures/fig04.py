@@ -129,14 +129,19 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xlim(low, high + 0.45 * (high - low))  # space for the numbers
 
 
+def theory(main: pd.DataFrame) -> str:
+    """Name of the lines."""
+    return "mean field" if main.gamma.iloc[0] == "N" else "kinetic equation"
+
+
 def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
     claim = "follows the kinetic equation, with a jump at p = 0"
     if main.gamma.iloc[0] == "N":
         claim = "has small jumps at p = 0"
     text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a), (b) Points: chain;
-        lines: kinetic equation. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
-        at p = 0, of the chain and by the kinetic equation (ticks)."""
+        lines: {theory(main)}. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
+        at p = 0, and those of the lines (ticks)."""
     largest = f"{math.ceil(10 * far) / 10:g}" if math.isfinite(far) else None
     return fill(text, largest=largest)
 
@@ -159,7 +164,7 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_jumps(panels["jump"], main)
     corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
     panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **corner)
-    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="kinetic equation")
+    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label=theory(main))
     figure.legend(*panels["near"].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
     return figure, table, caption(main, unequal)

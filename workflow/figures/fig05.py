@@ -23,7 +23,7 @@ LOOKS = {
     "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = {}$, $\Pi = 0$"),
     "dense": style.points("^", style.GREEN, label=r"$n = {}$, random $\Pi$"),
 }
-COLD = 0.8  # energy of a scatterer over that of a particle as they meet: below it scatterers are still cold
+COLD = 0.8  # energy of a scatterer over that of a particle as they meet: below it scatterers have not relaxed
 
 
 def at_momentum(result: Result) -> float:
@@ -70,15 +70,16 @@ def caption(table: pd.DataFrame) -> str:
     for name, part in table[~table.cold].groupby("series"):
         far = part.loc[part.deviation.abs().idxmax()]
         largest[name] = format_with_error(abs(far.deviation), far.mu_error)
-    text = """The paper finds that a particle keeps its direction with the probability μ = arccos(σ)/π.
-        (b) Difference from this law, at most {paper} in the paper's ring. With {density} particles per cell
-        it is at most {dense}. At σ = {cold} it is larger, as the heavy scatterers are still cold. Dashes,
-        at σ = 0 bars: the law corrected for the conserved total momentum Π."""
+    sigmas = listed(map(format_number, sorted({*table[table.cold].sigma}))) if table.cold.any() else ""
+    but = f" except at σ = {sigmas}, where heavy scatterers have not relaxed" if sigmas else ""
+    text = f"""The paper states the probability μ that a particle keeps its direction as an integral, here
+        arccos(σ)/π. (b) Difference from this law: in the paper's ring at most {{paper}}{but}. With
+        {{density}} particles per cell it is at most {{dense}}. Dashes, at σ = 0 bars: the law corrected for
+        the conserved total momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
-    cold = listed(map(format_number, sorted({*table[table.cold].sigma}))) if table.cold.any() else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}
-    return fill(text, cold=cold, density=density, **numbers)
+    return fill(text, density=density, **numbers)
 
 
 @plots("paper zero-momentum dense", varied="particles_per_cell")
@@ -108,7 +109,7 @@ def draw(results: Sequence[Result]) -> Parts:
     for sigma, part in table[table.cold].groupby("sigma"):
         side, lift = ("right", 4) if sigma > 0 else ("left", -4)
         lowest = sigma, 1e3 * part.deviation.min()
-        style.name_point(below, "scatterers still cold", lowest, (lift, -6), ha=side, va="top")
+        style.name_point(below, "scatterers not relaxed", lowest, (lift, -6), ha=side, va="top")
     below.margins(y=0.2)  # room for their name
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,[\mu - \arccos(\sigma)/\pi]$")
     return figure, table, caption(table)

@@ -1,7 +1,5 @@
 """Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum,
-with none, and with random directions, of the paper's footnote. The table also has other
-relaxation times.
-"""
+with none, and with random directions, of the paper's footnote."""
 
 from collections.abc import Sequence
 
@@ -22,9 +20,9 @@ TICKS = (-1, -0.5, 0, 0.5, 1)
 PAPERS, ZERO = "random total momentum", "zero total momentum"
 RANDOM = "random directions"
 LOOKS = {
-    PAPERS: style.points("o", style.BLUE, label=PAPERS),
-    ZERO: style.points("s", style.VERMILLION, "white", label=ZERO),
-    RANDOM: style.points("D", style.GREEN, label=RANDOM),
+    PAPERS: style.points("o", style.BLUE),
+    ZERO: style.points("s", style.VERMILLION, "white"),
+    RANDOM: style.points("D", style.GREEN),
 }
 
 
@@ -51,11 +49,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 def draw_curve(axes: Axes, part: pd.DataFrame, name: str) -> None:
     """Plots a kind. Of several relaxation times all but the longest have open symbols."""
-    look = LOOKS.get(name, style.points("P", style.BLACK, "white", label=name))
-    several = part.relaxation_time.nunique() > 1
+    look = LOOKS.get(name, style.points("P", style.BLACK, "white"))
     for time, points in part.groupby("relaxation_time"):
-        own = {"label": f"{name}, $t_r = {format_number(time)}$"} if several else {}
-        if several and time < part.relaxation_time.max():
+        own = {"label": f"{name}, $t_r = {format_number(time)}$"}
+        if time < part.relaxation_time.max():
             own["markerfacecolor"] = "white"
         axes.errorbar(points.sigma, points.alpha, points.alpha_error, **look | own)
 
@@ -67,27 +64,27 @@ def extreme(part: pd.DataFrame, row: int) -> str | None:
     return format_with_error(*known[["alpha", "alpha_error"]].iloc[row]) if len(known) else None
 
 
-def caption(shown: pd.DataFrame) -> str:
-    least, most = (extreme(shown[shown.kind == kind], row) for kind, row in ((PAPERS, 0), (ZERO, -1)))
+def caption(table: pd.DataFrame) -> str:
+    least, most = (extreme(table[table.kind == kind], row) for kind, row in ((PAPERS, 0), (ZERO, -1)))
     text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. (a) At the paper's random total
-        momentum α is at least {least} for σ ≠ 0. (b) At zero total momentum, without drift of the ring,
-        it is at most {most} for σ ≠ 0. Diamonds: random directions, as in the paper's footnote."""
+        momentum these α are at least {least}. (b) At zero total momentum, without drift of the ring,
+        they are at most {most}. Diamonds: random directions, as in the paper's footnote; t_r: relaxation
+        time."""
     return fill(text, least=least, most=most)
 
 
-@plots("all zero-momentum aged random")
+@plots("all zero-momentum random")
 def draw(results: Sequence[Result]) -> Parts:
     table = tabulate(results)
-    shown = tabulate([result for result in results if result.series != "aged"])
     figure, (above, below) = style.stacked(2, 1, height=1.6)
-    for name in dict.fromkeys([*LOOKS, *shown.kind]):
+    for name in dict.fromkeys([*LOOKS, *table.kind]):
         for axes in (above, below) if name != PAPERS else (above,):
-            draw_curve(axes, shown[shown.kind == name], name)
-    style.cross_out(above, shown.sigma, shown.alpha, ~shown.usable)
+            draw_curve(axes, table[table.kind == name], name)
+    style.cross_out(above, table.sigma, table.alpha, ~table.usable)
     for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1))
     below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"$\alpha$ without drift")
     below.set_xticks(TICKS)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
-    return figure, table, caption(shown)
+    return figure, table, caption(table)

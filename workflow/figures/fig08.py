@@ -81,8 +81,8 @@ def caption(table: pd.DataFrame) -> str:
     known = table[table.gamma == gamma].dropna(subset="exponent_to_next")
     texts = [*map(format_with_error, known.exponent_to_next, known.exponent_to_next_error)]
     text = """The paper finds that κ = −J_U N/(T_N − T_1) grows as N^(1/3) at γ = N and as N at γ = 1
-        (grey, not fits). (b) Local exponents; at γ = {gamma} at most {largest}, and {last} in the end.
-        Open symbols: heat J_U − T J_n alone. Errors below the size of a symbol are not visible."""
+        (grey, not fits). Mean field: without correlations. (b) Local exponents; at γ = {gamma} at most
+        {largest}, and {last} in the end. Open symbols, shifted: heat J_U − T J_n alone."""
     largest = texts[int(known.exponent_to_next.argmax())] if texts else None
     return fill(text, gamma=gamma, largest=largest, last=texts[-1] if texts else None)
 

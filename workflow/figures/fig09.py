@@ -6,7 +6,6 @@ opposite to it; there is no peak from then on.
 """
 
 import functools
-import math
 from collections.abc import Sequence
 from itertools import cycle
 
@@ -69,7 +68,8 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
 
 
 def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
-    """Plots position and speed of the peak, and the line of constant speed through its first position."""
+    """Plots position and speed of the peak, and the line of constant speed since t = 0 through its first
+    position."""
     where, rate = result["peak_position"], result["peak_speed"]
     time = where.axes["time"]
     first = next(iter(resolved(where.mean)), 0)
@@ -87,21 +87,17 @@ def speeds(result: Result) -> tuple[str, str] | tuple[None, None]:
     return format_quantity(speed, known[0]), format_quantity(speed, known[-1])
 
 
-def caption(results: Sequence[Result], table: pd.DataFrame, top: float) -> str:
-    """top: largest energy difference in the frame."""
+def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     rest = results[0]
     first, last = speeds(rest)
     peaks = "two peaks of almost constant" if rest.parameters["gamma"] == "N" else "peaks of constant"
-    sound = "; (d) sound in the ring of scatterers initially at rest" if with_sound(rest) else ""
+    sound = "; (d) sound, with scatterers initially at rest" if with_sound(rest) else ""
     faint = "Faint: after both sides of the pulse have met. " if table.ring_closed.any() else ""
-    centre = table[(table.distance == 0) & (table.scatterer_temperature == str(start(rest)))]
-    height = centre.energy_difference.max()
-    spike = f"{height / 1e3:.0f}" if height > top else None
-    text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. (a) The central
-        cell reaches {{spike}}·10³. (c), (d) Position and speed of the moving peak.
-        With {named_start(rest)}, the speed is {{first}} cells per time at first and {{last}} at
-        last. {faint}Dashed lines: (c) constant first speed{sound}."""
-    return fill(text, first=first, last=last, spike=spike)
+    spike = "" if rest.parameters["gamma"] == "N" else "The spikes are the heated central scatterer. "
+    text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. {spike}(c), (d)
+        Position and speed of the moving peak. With {named_start(rest)}, the speed is {{first}} cells per
+        time at first and {{last}} at last. {faint}Dashed lines: (c) constant speed since t = 0{sound}."""
+    return fill(text, first=first, last=last)
 
 
 @plots("rest gaussian")
@@ -114,13 +110,12 @@ def draw(results: Sequence[Result]) -> Parts:
     common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
     shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
     heights = np.concatenate([r["peak"].mean[np.isin(r["peak"].axes["time"], shown)] for r in results])
-    top = FRAME * np.nanmax(heights) if np.isfinite(heights).any() else np.inf
     tables = []
     for result in results:
         tables.append(draw_profiles(panels[result.run], result, shown))
         draw_motion(position, speed, result)
-    if math.isfinite(top):
-        rest.set_ylim(top=top / 1e3)
+    if np.isfinite(heights).any():
+        rest.set_ylim(top=FRAME * np.nanmax(heights) / 1e3)
     if with_sound(results[0]):
         style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
@@ -133,4 +128,4 @@ def draw(results: Sequence[Result]) -> Parts:
     figure.legend(*rest.get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
     table = pd.concat(tables)
-    return figure, table, caption(results, table, top)
+    return figure, table, caption(results, table)

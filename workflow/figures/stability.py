@@ -117,10 +117,10 @@ def caption(walks: pd.DataFrame, known: pd.DataFrame) -> str:
         walks[walks.observation_time == walks.observation_time.max()].groupby("rule").energy_change.max()
     )
     changes = {rule: scientific(longest[rule]) if rule in longest else None for rule in RULES}
-    text = f"""(a) Energy currents in extreme chains deviate from their exact values (dots) by at most
-        {{score}} standard errors (grey bars: {BAR}). Dotted: rounding error of the
-        energy. (b) Relative changes by rounding at σ = {{sigma}}. {{collisions}} collisions change the
-        energy by {{elastic}} as computed here. The paper's formula changes it by {{printed}}."""
+    text = f"""(a) Dots: deviations of energy currents in extreme chains from exact values, at most {{score}}
+        standard errors (grey bars: {BAR}). Dotted: rounding error of the energy. (b) Relative changes by
+        rounding at σ = {{sigma}}. {{collisions}} collisions change the energy by {{elastic}} as computed
+        here. The paper's formula changes it by {{printed}}. Dashed: random walk of steps of 2⁻⁵³."""
     sigma = listed(map(format_number, sorted({*walks.sigma})))
     collisions = scientific(walks.collisions.max())
     return fill(text, score=f"{score:.1f}", sigma=sigma, collisions=collisions, **changes)

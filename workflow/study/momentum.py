@@ -33,22 +33,26 @@ LINE: style.Look = {"linestyle": "-", "linewidth": 0.6}
 # By collision rule: name, and filled symbols where momentum is conserved.
 NOISE: dict[str, tuple[str, style.Look]] = {
     "elastic": ("no noise", style.points("o", style.BLACK)),
-    "rotation": ("momentum conserved", style.points("s", style.BLUE)),
-    "reversal": ("momentum broken", style.points("^", style.VERMILLION, "white")),
+    "rotation": ("rotation: momentum conserved", style.points("s", style.BLUE)),
+    "reversal": ("reversal: momentum broken", style.points("^", style.PURPLE, "white")),
 }
 GASES = [("s", style.GREEN), ("D", style.ORANGE), ("^", style.SKY), ("P", style.BLUE)]
+OWN_LOOK = style.points("s", style.VERMILLION, "white", zorder=3)
 
 
 def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
-    """One row per N: conductivity of heat of the chain, Green-Kubo value of its gas, and their ratio."""
+    """One row per N: conductivity of heat of the chain, Green-Kubo value of its gas, their ratio, and β of
+    this gas in the last octave."""
     table = pd.DataFrame(
         {"cells": int(chain.parameters["cells"]), "usable": chain.usable} | chain.columns("kappa_heat")
         for chain in chains
     )
     ends = [chain[f"temperature_{end}"].mean for chain in chains for end in ("first", "last")]
-    columns = ["cells", "green_kubo", "green_kubo_error"]
     state = float(np.mean(ends)), max(run_parameters.length(chain) for chain in chains)
-    values = pd.DataFrame((rings.green_kubo(ring, *state) for ring in own), columns=columns)
+    columns = ["cells", "green_kubo", "green_kubo_error", "middle", "local_exponent", "local_exponent_error"]
+    values = pd.DataFrame(
+        [(*rings.green_kubo(ring, *state), *rings.last_exponent(ring)) for ring in own], columns=columns
+    )
     table = table.merge(values, "outer", "cells").sort_values("cells", ignore_index=True)
     table["ratio"] = table.green_kubo / table.kappa_heat
     relative = table.kappa_heat_error / table.kappa_heat, table.green_kubo_error / table.green_kubo
@@ -57,9 +61,10 @@ def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
 
 def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
     """Plots both conductivities, and the logarithm through those of the chain from FIRST on."""
-    heat, gas = style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white", zorder=3)
-    axes.errorbar(sizes.cells, sizes.kappa_heat, sizes.kappa_heat_error, label="chain, heat alone", **heat)
-    axes.errorbar(sizes.cells, sizes.green_kubo, sizes.green_kubo_error, label="Green–Kubo, its gas", **gas)
+    heat = style.points("o", style.BLUE, label="chain, heat alone")
+    axes.errorbar(sizes.cells, sizes.kappa_heat, sizes.kappa_heat_error, **heat)
+    label = "Green–Kubo, its gas"
+    axes.errorbar(sizes.cells, sizes.green_kubo, sizes.green_kubo_error, label=label, **OWN_LOOK)
     style.cross_out(axes, sizes.cells, sizes.kappa_heat, ~sizes.usable & sizes.kappa_heat.notna())
     long = sizes[sizes.usable & (sizes.cells >= FIRST)]
     if len(long) > 2:
@@ -74,24 +79,25 @@ Line = tuple[str, style.Look, pd.DataFrame]  # label, look, and rows with β
 
 
 def noise(control: pd.DataFrame) -> Iterator[Line]:
-    """One gas by rule and fraction, until the last time of the noise."""
+    """One gas by rule, until the last time of the noise."""
     control = control[control.middle <= control[control.rule != "elastic"].middle.max()]
     for (rule, epsilon), part in control.groupby(["rule", "epsilon"]):
-        name, look = NOISE.get(rule, (rule, style.points("P", style.GREEN)))
-        yield (f"{name}, {100 * epsilon:g} %" if epsilon else name), look, part
+        name, look = NOISE.get(rule, (f"{rule} ({epsilon:g})", style.points("P", style.GREEN)))
+        yield name, look, part
 
 
-def gases(elastic: pd.DataFrame, control: pd.DataFrame) -> Iterator[Line]:
-    """Every gas, that of the noise as there."""
+def gases(elastic: pd.DataFrame, control: pd.DataFrame, sizes: pd.DataFrame) -> Iterator[Line]:
+    """Every gas, that of the noise as there, and those of fig. 8."""
     looks = cycle(GASES)
     for _, gas in elastic.groupby(rings.STATE):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
         look = NOISE["elastic"][1] if gas.index.isin(control.index).any() else style.points(*next(looks))
         yield rf"$\zeta = {zeta}$, $M = {mass}$", look, gas
+    yield rf"fig. 8: $\zeta = {rings.SLOW_FLUX}/N$", OWN_LOOK, sizes
 
 
-def draw_exponents(axes: Axes, lines: Iterable[Line], corner: str) -> None:
-    """Plots β with guides at diffusion and at 4/3. corner: of the legend."""
+def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
+    """Plots β with guides at diffusion and at 4/3."""
     for label, look, part in lines:
         known = part.dropna(subset="middle")
         error = known.local_exponent_error
@@ -99,19 +105,21 @@ def draw_exponents(axes: Axes, lines: Iterable[Line], corner: str) -> None:
     style.guide_at(axes, 1, "1")
     style.guide_at(axes, 4 / 3, "4/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"exponent $\beta$")
-    axes.legend(loc=corner, bbox_to_anchor=(0, 0.05, 1, 0.95))  # above the guide at 1
+    axes.legend(loc="upper right")
 
 
-def caption(sizes: pd.DataFrame) -> str:
+def caption(sizes: pd.DataFrame, fractions: Iterable[float]) -> str:
     """With the ratio at the shortest and the longest chain from FIRST on, or of the longest alone."""
     known = sizes[sizes.usable].dropna(subset="ratio_error").sort_values("cells")
     rows = [*known[known.cells >= min(FIRST, max(known.cells, default=FIRST))].itertuples()]
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
     text = """(a) Conductivity of heat of the chains of fig. 8, and the Green–Kubo value of rings of their
         gas, ζ = 16/N, at the time in which sound crosses the chain. It has no free parameter, and is
-        {ratios} times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. Momenta are changed at
-        random in a fraction of the collisions of (b). Dashed: guides, not laws."""
-    return fill(text, ratios=listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None)
+        {ratios} times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. (b) Random changes of
+        momenta in {fraction} % of the collisions. (c) Gases of a fixed density, and those of fig. 8's chains,
+        each until sound crosses the chain. Dashed: guides, not laws."""
+    ratio = listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None
+    return fill(text, ratios=ratio, fraction=listed(f"{100 * one:g}" for one in fractions))
 
 
 SERIES = " ".join(f"{OWN}{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))
@@ -130,13 +138,14 @@ def draw(results: Sequence[Result]) -> Parts:
     figure, axes = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
     axes[2].sharey(axes[1])
     draw_own_gas(axes[0], sizes)
-    draw_exponents(axes[1], noise(control), "upper right")
-    draw_exponents(axes[2], gases(table[table.rule == "elastic"], control), "lower left")
+    draw_exponents(axes[1], noise(control))
+    draw_exponents(axes[2], gases(table[table.rule == "elastic"], control, sizes))
     low, high = axes[2].get_ylim()
-    axes[2].set_ylim(low, high + 0.27 * (high - low))  # room for the legend of (b)
+    axes[2].set_ylim(low, high + 0.3 * (high - low))  # room for the legends
     zeta, mass = rings.texts(broken.zeta, broken.mass)
-    titles = "fig. 8 and its own gas", rf"noise, $\zeta = {zeta}$, $M = {mass}$", "gases of one density"
+    titles = "fig. 8 and its own gas", rf"with noise, $\zeta = {zeta}$, $M = {mass}$", "without noise"
     for panel, text in zip(axes, titles, strict=True):
         panel.set_title(text, size=style.label_size())
     style.letter(*axes)
-    return figure, pd.concat([sizes, table]), caption(sizes)
+    fractions = sorted({*control[control.rule != "elastic"].epsilon})
+    return figure, pd.concat([sizes, table]), caption(sizes, fractions)

@@ -55,6 +55,12 @@ def green_kubo(result: Result, temperature: float, length: float) -> tuple[int, 
     return cells, float(heat.mean[-1] / unit), float(heat.error[-1] / unit)
 
 
+def last_exponent(result: Result) -> tuple[float, float, float]:
+    """β over the last octave of time, after the geometric middle of the octave, and before its error."""
+    exponent = result["local_exponent"]
+    return float(exponent.axes["middle"][-1]), float(exponent.mean[-1]), float(exponent.error[-1])
+
+
 def texts(zeta: float, mass: float) -> tuple[str, str]:
     """ζ and M as text, without rounding errors: 0.8 and 1/3."""
     zeta_text, mass_text = (format_number(float(f"{value:.13g}")) for value in (zeta, mass))

@@ -130,10 +130,9 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 
 def caption(table: pd.DataFrame) -> str:
     counts = listed(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
-    return f"""
-        Of {len(table)} statements of the paper, as printed or as meant (hollow), {counts}. Bars: joint 95 %
-        confidence intervals of the deciding numbers. Grey: acceptance band; light: nearly. Unit: half
-        the band, or half the bar if the band has one edge. Triangles: off the scale."""
+    return f"""{counts}. Bars: joint 95 % confidence intervals of the deciding numbers. Grey: acceptance band;
+        light: nearly. Unit: half the band, or half the bar if the band has one edge, so that positions
+        compare within a row only. Triangles: off the scale."""
 
 
 def draw(results: Sequence[Result]) -> Parts:

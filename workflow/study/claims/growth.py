@@ -1,7 +1,7 @@
 """Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from workflow.lib.load import Result
 from workflow.study.results import Results, by_size, combination, estimate, octaves
@@ -11,6 +11,7 @@ from workflow.study.verdict import Estimate
 FIRST = 32  # cells from which power laws of kappa are judged: shorter chains consist mainly of their ends
 LONGEST = ("", "-long", "-longest")  # ends of the names of the series of a gas
 GASES = ("light", "dense", "sparse", "thin")  # rings without noise
+OWN = tuple(f"gas-{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))  # of fig. 8's chains
 RULES = ("rotation", "reversal")
 DISTURBED = ("light", "thin")  # those also with noise in 10 % of the collisions
 
@@ -33,10 +34,21 @@ def _conductivities(data: Results, *series: str) -> dict[int, Estimate]:
 
 
 def superdiffusive(data: Results) -> list[Estimate]:
-    """beta of <Q²> ∼ t^beta in the last octave of the longest ring of every gas. A gas that was not observed
-    is unknown: fewer decide less."""
-    rings = data.results("momentum", *(gas + end for gas in GASES for end in LONGEST))
-    found = {gas: _longest(rings, *(gas + end for end in LONGEST)) for gas in GASES}
+    """beta of <Q²> ∼ t^beta in the last octave before sound crosses the chain, in the gas of every chain of
+    fig. 8."""
+    return _exponents(data, {gas: (gas,) for gas in OWN})
+
+
+def superdiffusive_at_fixed_density(data: Results) -> list[Estimate]:
+    """beta of <Q²> ∼ t^beta in the last octave of the longest ring of every gas of a fixed density."""
+    return _exponents(data, {gas: tuple(gas + end for end in LONGEST) for gas in GASES})
+
+
+def _exponents(data: Results, gases: Mapping[str, tuple[str, ...]]) -> list[Estimate]:
+    """beta in the last octave of the longest ring of every gas, given with its series. A gas that was not
+    observed is unknown: fewer decide less."""
+    rings = data.results("momentum", *(series for names in gases.values() for series in names))
+    found = {gas: _longest(rings, *names) for gas, names in gases.items()}
     return [
         estimate(ring, "local_exponent", -1, f"β, {_named(ring)}") if ring else _unknown(f"β, {gas}")
         for gas, ring in found.items()

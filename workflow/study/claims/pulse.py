@@ -91,7 +91,7 @@ def damping(data: Results) -> list[Estimate]:
     of the peak's height bounds the systematic error."""
     result = data.one("fig09a", PAPERS_START)
     octaves = [
-        replace(one, systematic=PEAK_BIAS) for start, one in _by_octave(result) if start >= RESOLVED[0]
+        replace(one, systematic=PEAK_BIAS) for start, _, one in _by_octave(result) if start >= RESOLVED[0]
     ]
     if not octaves:
         raise MissingError(f"no octave from t = {RESOLVED[0]} on")
@@ -115,16 +115,17 @@ def damping_rare(data: Results) -> list[Estimate]:
     result = data.one("fig09b", PAPERS_START)
     cells = math.sqrt(2 * result.parameters["pulse_energy"]) / float(result.parameters["cell_length"])
     return [
-        replace(one, systematic=(1 - 1 / 4) / (6 * (cells * start) ** 2) / math.log(2))
-        for start, one in _by_octave(result)
+        replace(one, systematic=(start**-2 - until**-2) / (6 * cells**2) / math.log(until / start))
+        for start, until, one in _by_octave(result)
     ]
 
 
-def _by_octave(result: Result) -> list[tuple[float, Estimate]]:
-    """First time and damping exponent of the octaves of a pulse. NaN, so unknown, if the peak is not resolved
-    in most of the octave."""
-    until = result["local_damping_exponent"].axes["until"]
-    return [
-        (time / 2, estimate(result, "local_damping_exponent", k, f"damping exponent, until t = {time:g}"))
-        for k, time in enumerate(until)
-    ]
+def _by_octave(result: Result) -> list[tuple[float, float, Estimate]]:
+    """First time, last time and damping exponent of the octaves of a pulse, each of which begins where the
+    one before it ends. NaN, so unknown, if the peak is not resolved in most of the octave."""
+    times = [result["peak"].axes["time"][0], *result["local_damping_exponent"].axes["until"]]
+    octaves = []
+    for k, (start, until) in enumerate(pairwise(map(float, times))):
+        label = f"damping exponent, t = {start:g} to {until:g}"
+        octaves.append((start, until, estimate(result, "local_damping_exponent", k, label)))
+    return octaves
