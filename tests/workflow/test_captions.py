@@ -28,13 +28,13 @@ NUMBER = re.compile(r"(?<![\w.^(−⁻|/])−?\d+(?:\.\d+)?(?:·10[⁻\w]+)?(?![
 FIXED = {"fig02_upper": "1", "fig02_lower": "1", "fig03": "0 1", "fig03_inset": "0 0.1 0.01 1", "fig04a": "0"}
 FIXED |= {
     "fig04b": "0",
-    "fig05": "0 0.9",
+    "fig05": "0",
     "fig06": "−3 −2 0 50",
     "fig07": "2",
     "fig07_inset": "0 1 2",
     "fig08": "1",
 }
-FIXED |= {"accuracy": "1", "momentum": "1 8", "stability": "0.3 2"}
+FIXED |= {"fig09a": "0", "fig09b": "0", "accuracy": "1", "momentum": "1 8 10", "stability": "0.3 2"}
 COUNTED = ("events", "achieved_error", "error_without_control_variates")
 
 
