@@ -60,16 +60,12 @@ def compare(chains: Sequence[Result], own: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_own_gas(axes: Axes, sizes: pd.DataFrame) -> None:
-    """Plots both conductivities, and the logarithm through those of the chain from FIRST on."""
+    """Plots both conductivities."""
     heat = style.points("o", style.BLUE, label="chain, heat alone")
     axes.errorbar(sizes.cells, sizes.kappa_heat, sizes.kappa_heat_error, **heat)
     label = "Green–Kubo, its gas"
     axes.errorbar(sizes.cells, sizes.green_kubo, sizes.green_kubo_error, label=label, **OWN_LOOK)
     style.cross_out(axes, sizes.cells, sizes.kappa_heat, ~sizes.usable & sizes.kappa_heat.notna())
-    long = sizes[sizes.usable & (sizes.cells >= FIRST)]
-    if len(long) > 2:
-        line = np.polyfit(np.log2(long.cells), long.kappa_heat, 1, w=1 / long.kappa_heat_error)
-        axes.plot(long.cells, np.polyval(line, np.log2(long.cells)), label=r"$a + b\,\ln N$", **style.GUIDE)
     style.against_size(axes, sizes.cells)
     axes.set_ylabel(rf"$\kappa$ of heat alone ({style.UNIT_SYSTEM})")
     axes.legend(loc="upper left")
@@ -115,9 +111,9 @@ def caption(sizes: pd.DataFrame, fractions: Iterable[float]) -> str:
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
     text = """(a) Conductivity of heat of the chains of fig. 8, and the Green–Kubo value of rings of their
         gas, ζ = 16/N, at the time in which sound crosses the chain. It has no free parameter, and is
-        {ratios} times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β; diffusion has 1. (b) Random changes of
-        momenta in {fraction} % of the collisions. (c) Gases of a fixed density, and those of fig. 8's chains,
-        each until sound crosses the chain. Dashed: guides, not laws."""
+        {ratios} times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted
+        limit. (b) Random changes of momenta in {fraction} % of the collisions. (c) Gases of a fixed density,
+        and those of fig. 8's chains, each until sound crosses the chain."""
     ratio = listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None
     return fill(text, ratios=ratio, fraction=listed(f"{100 * one:g}" for one in fractions))
 

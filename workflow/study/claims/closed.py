@@ -95,17 +95,16 @@ def spreading_zero(data: Results) -> list[Estimate]:
 
 def spreading_with_drift(data: Results) -> list[Estimate]:
     """alpha for every sigma but 0, with the paper's random total momentum."""
-    return _spreading(data, zero_total_momentum=False)
+    return _spreading(data, "all", "α")
 
 
 def spreading_without_drift(data: Results) -> list[Estimate]:
     """alpha for every sigma but 0, with zero total momentum."""
-    return _spreading(data, zero_total_momentum=True)
+    return _spreading(data, "zero-momentum", "α at zero total momentum")
 
 
-def _spreading(data: Results, *, zero_total_momentum: bool) -> list[Estimate]:
-    runs = data.results("fig07_inset", "zero-momentum" if zero_total_momentum else "all")
-    name = "α at zero total momentum" if zero_total_momentum else "α"
+def _spreading(data: Results, series: str, name: str) -> list[Estimate]:
+    runs = data.results("fig07_inset", series)
     return _named([run for run in runs if run.parameters["sigma"]], "alpha", name)
 
 
