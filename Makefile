@@ -17,7 +17,7 @@ help:  ## This list
 	echo 'On a cluster (docs/machines.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
 figures:  ## Build, simulate and render the paper's figures: figures/QUALITY/*.pdf, .png, .svg, .csv
 panel:  ## One panel, PANEL=fig05
-report:  ## The paper's claims against the results: figures/QUALITY/report.html
+report:  ## The paper's statements against the results: figures/QUALITY/report.html
 gallery:  ## The report of the release, docs/gallery, from the results at QUALITY
 audit:  ## Check every file, and render every figure again and compare
 status:  ## Current, stale (why), edited or missing files

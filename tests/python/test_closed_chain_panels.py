@@ -130,7 +130,7 @@ def test_fig10() -> None:
     octaves = table.dropna(subset="octave_exponent").set_index("time")
     np.testing.assert_allclose(octaves.octave_middle, [2**0.5, 8**0.5, (4 * 5.6) ** 0.5])
     assert octaves.octave_exponent[5.6] == 0.64
-    assert "the first is 0.6000(61). The last is 0.6400(74)." in caption
+    assert "start at rest: 0.6000(61), 0.6000(67) and 0.6400(74)." in caption
 
 
 def test_fig09_fig10_and_fig07_inset_name_the_numbers_that_are_known() -> None:

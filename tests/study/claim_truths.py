@@ -128,8 +128,9 @@ damped = {
     "energy_difference": lambda _run, _t, x: (x > 1) & (x < x.max() - 1),
 }
 # Octaves from t = 0.04 and from 0.063 on. Those before begin before 0.032.
-claim("pulse.damping", {"fig09a": damped}, [(0.64 + 2, 0.02), (0.64 + 3, 0.02)])
-# At the ends of an octave the peak of free flight is s = √(2 · 50000) t cells away, and lower by 1/(6 s²).
-ends = [(0.01, 0.016), (0.016, 0.025)]
-biases = [(a**-2 - b**-2) / 6e5 / math.log(b / a) for a, b in ends]
+biases = [0.013 / math.log(ratio) for ratio in (0.063 / 0.04, 0.1 / 0.063)]
+claim("pulse.damping", {"fig09a": damped}, [*zip((2.64, 3.64), biases, strict=True)])
+# The peak moves from 10 cells to 16 and to 25, and is lower by 1/(3 x²).
+damped |= {"peak_position": lambda _, t: 1000 * t}
+biases = [(a**-2 - b**-2) / 3 / math.log(b / a) for a, b in ((10, 16), (16, 25))]
 claim("pulse.damping_rare", {"fig09b": damped}, [*zip((0.64, 1.64), biases, strict=True)])

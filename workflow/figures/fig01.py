@@ -98,7 +98,7 @@ def draw(results: Sequence[Result]) -> Parts:
         middle.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
         below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/\mathrm{e}t)$")
         below.sharey(rows[-1, 0])
-    rows[-1, 0].set_ylim(0, 1.2 * rows[-1, 0].get_ylim()[1])
+    rows[-1, 0].margins(y=0.3)
     style.letter(*rows[0], lift=26)
     style.letter(*rows[1:].flat, first=len(results))
     curves = rows[1, 0].get_legend_handles_labels()

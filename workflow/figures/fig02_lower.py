@@ -38,7 +38,7 @@ def caption(results: Sequence[Result]) -> str:
         excess.append(f"{percent} % at γ = {run_parameters.gamma(result)}")
     text = """The paper finds that particles accumulate at the ends of the chain, more at γ = 1. (a)
         Particles per cell, with lines through the bulk (shaded). (b) The density over these lines: an end
-        cell exceeds its line by at most {excess}."""
+        cell exceeds its line by at most {excess}. Bars: without the error of the line."""
     return fill(text, excess=listed(excess))
 
 

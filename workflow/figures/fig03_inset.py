@@ -60,7 +60,7 @@ def caption(table: pd.DataFrame) -> str:
         for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
     text = f"""The paper finds F_N − F, chain minus kinetic equation, below {BOUND} %, and {OF_LONGEST} % in
-        the longest chain, if F integrates to 1. (a), (b) Particles that leave (points); lines: mean field.
+        the longest chain, if F integrates to 1. (a), (b) Outgoing particles (points); lines: mean field.
         (c) As p → 0: {{largest}}."""
     return fill(text, largest=largest)
 

@@ -161,7 +161,7 @@ def draw(results: Sequence[Result]) -> Parts:
     draw_distribution(panels["near"], unequal, shown / NEAR)
     style.second_axis(panels["main"], 1 / run_parameters.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal, shown)
-    draw_jumps(panels["jump"], main)
+    draw_jumps(panels["jump"], table)
     corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
     panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **corner)
     panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label=theory(main))

@@ -26,14 +26,19 @@ LOOKS = {
 COLD = 0.8  # energy of a scatterer over that of a particle as they meet: below it scatterers have not relaxed
 
 
+def is_cold(result: Result) -> bool:
+    """Whether the scatterers have not relaxed. At σ = ±1 they have no energy, or keep theirs."""
+    energies = [float(result[f"{one}_energy"].mean) for one in ("scatterer", "particle")]
+    return bool(abs(result.parameters["sigma"]) < 1 and energies[0] < COLD * energies[1])
+
+
 def at_momentum(result: Result) -> float:
     """mu by eq. 10 for the measured temperature: at large N and n, collisions have a common T, which is twice
     the mean energy of particles and of scatterers before them. Their energy leaves the rest of E to slow
-    particles."""
+    particles. At σ = 0 nothing relaxes, as momenta are only exchanged."""
     sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])
-    if abs(sigma) == 1:
-        return float(persistence_law(np.array(sigma)))
-    if not holds([result], scatterer_temperature=0):  # the total momentum is that of the particles
+    # The total momentum is that of the particles if scatterers start at rest.
+    if sigma in (-1, 0, 1) or is_cold(result) or not holds([result], scatterer_temperature=0):
         return np.nan
     energy = cells * result.parameters["particles_per_cell"] * float(result.parameters["temperature"])  # 2 E
     temperature = float(result["particle_energy"].mean + result["scatterer_energy"].mean)
@@ -53,6 +58,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "at_momentum": at_momentum(result),
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
+            "cold": is_cold(result),
             "replicas": int(result["mu"].replicas),
             "usable": result.usable,
         }
@@ -61,8 +67,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     table = pd.DataFrame(rows).sort_values(["series", "sigma"], ignore_index=True)
     table.insert(5, "law", persistence_law(table.sigma))
     table.insert(6, "deviation", table.mu - table.law)
-    cold = table.scatterer_energy < COLD * table.particle_energy
-    return table.assign(cold=cold & (table.sigma.abs() < 1))
+    return table
 
 
 def caption(table: pd.DataFrame) -> str:
@@ -74,8 +79,8 @@ def caption(table: pd.DataFrame) -> str:
     but = f" except at σ = {sigmas}, where heavy scatterers have not relaxed" if sigmas else ""
     text = f"""The paper states the probability μ that a particle keeps its direction as an integral, here
         arccos(σ)/π. (b) Difference from this law: in the paper's ring at most {{paper}}{but}. With
-        {{density}} particles per cell it is at most {{dense}}. Dashes, at σ = 0 bars: the law corrected for
-        the conserved total momentum Π."""
+        {{density}} particles per cell it is at most {{dense}}. Dashed: the law corrected for the conserved
+        total momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}
@@ -97,11 +102,8 @@ def draw(results: Sequence[Result]) -> Parts:
         look = look | {"label": look["label"].format(numbers)}
         above.errorbar(part.sigma, part.mu, part.mu_error, **look)
         below.errorbar(part.sigma, 1e3 * part.deviation, 1e3 * part.mu_error, **look)
-        expected = (1e3 * (part.at_momentum - part.law)).where(part.sigma.abs() < 1)
-        # At σ = 0 momenta are only exchanged, and scatterers at rest do not relax: a point of its own.
-        line, middle = expected.where(part.sigma != 0), expected[part.sigma == 0]
-        below.plot(part.sigma, line, color=look["color"], linestyle=DASHED, zorder=1)
-        below.plot(0 * middle, middle, "_", color=look["color"], markersize=9, zorder=1)
+        expected = 1e3 * (part.at_momentum - part.law)
+        below.plot(part.sigma, expected, color=look["color"], linestyle=DASHED, zorder=1)
     style.cross_out(above, table.sigma, table.mu, ~table.usable)
     above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))

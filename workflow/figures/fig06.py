@@ -115,9 +115,10 @@ def draw(results: Sequence[Result]) -> Parts:
         mark_outside(strip, table, mark[1], power, 2 * typical)
         strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{power}\,\Psi$, $\sigma = {format_number(sigma)}$")
     above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
-    ends = [table.tau[~table.unsure].max() for table in tables]
-    for axes, end in zip((above, *strips), (np.fmax.reduce(ends), *ends), strict=True):
-        axes.axvspan(cut(results[0]), end, **style.WINDOW)
+    right = above.get_xlim()[1]
+    for axes in (above, *strips):
+        axes.axvspan(cut(results[0]), right, **style.WINDOW)
+    above.set_xlim(right=right)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNIT_SYSTEM})")
     above.legend(loc="lower left")
     return figure, pd.concat(tables), caption(results)

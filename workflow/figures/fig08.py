@@ -81,8 +81,8 @@ def caption(table: pd.DataFrame) -> str:
     known = table[table.gamma == gamma].dropna(subset="exponent_to_next")
     texts = [*map(format_with_error, known.exponent_to_next, known.exponent_to_next_error)]
     text = """The paper finds that κ = −J_U N/(T_N − T_1) grows as N^(1/3) at γ = N and as N at γ = 1
-        (grey, not fits). Mean field: without correlations. (b) Local exponents; at γ = {gamma} at most
-        {largest}, and {last} in the end. Open symbols, shifted: heat J_U − T J_n alone."""
+        (grey, not fits). κ includes convection. Mean field: without correlations. (b) Local exponents; at
+        γ = {gamma} at most {largest}, and {last} in the end. Open symbols, shifted: heat J_U − T J_n alone."""
     largest = texts[int(known.exponent_to_next.argmax())] if texts else None
     return fill(text, gamma=gamma, largest=largest, last=texts[-1] if texts else None)
 
@@ -114,7 +114,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNIT_SYSTEM})")
     below.set_ylabel(r"$d\ln\kappa/d\ln N$")
     above.margins(x=0.13)  # room for the names of the guides
-    above.plot([], [], "o", color="grey", markerfacecolor="white", label="open: heat alone")
+    above.plot([], [], "o", color="grey", markerfacecolor="white", label="open (b): heat alone")
     handles, labels = above.get_legend_handles_labels()
     figure.legend(handles[::-1], labels[::-1], loc="outside upper left", ncols=2)
     whole = table.drop(columns="between").merge(theory.drop(columns="middle"), "left", ["gamma", "cells"])

@@ -91,11 +91,11 @@ def caption(results: Sequence[Result], table: pd.DataFrame) -> str:
     rest = results[0]
     first, last = speeds(rest)
     peaks = "two peaks of almost constant" if rest.parameters["gamma"] == "N" else "peaks of constant"
-    sound = "; (d) sound, with scatterers initially at rest" if with_sound(rest) else ""
+    sound = "; (d) sound after a start at rest" if with_sound(rest) else ""
     faint = "Faint: after both sides of the pulse have met. " if table.ring_closed.any() else ""
     spike = "" if rest.parameters["gamma"] == "N" else "The spikes are the heated central scatterer. "
     text = f"""The paper finds {peaks} speed in the effect ΔE(x, t) of an energy pulse. {spike}(c), (d)
-        Position and speed of the moving peak. With {named_start(rest)}, the speed is {{first}} cells per
+        Position and speed of the moving peak. If {named_start(rest)}, the speed is {{first}} cells per
         time at first and {{last}} at last. {faint}Dashed lines: (c) constant speed since t = 0{sound}."""
     return fill(text, first=first, last=last)
 
@@ -117,7 +117,7 @@ def draw(results: Sequence[Result]) -> Parts:
     if np.isfinite(heights).any():
         rest.set_ylim(top=FRAME * np.nanmax(heights) / 1e3)
     if with_sound(results[0]):
-        style.guide_at(speed, sound_speed(results[0]), "sound", color=look(results[0])[1])
+        style.guide_at(speed, sound_speed(results[0]), "sound (rest)", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")
     name = rf"$\gamma = {run_parameters.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")

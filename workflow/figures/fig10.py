@@ -93,15 +93,14 @@ def exponents(result: Result) -> list[str]:
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]
     law = "t^(−2/3)" if run_parameters.gamma(rest) == "N" else "t^(−1)"
-    found = exponents(rest)
-    first, last = (found[0], found[-1]) if found else (None, None)
+    found = listed(exponents(rest)) if exponents(rest) else None
     names = {-2 / 3: "2/3 (sound)", -1 / 2: "1/2 (shock)", -1: "1"}
     laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
     name = "exponents" if len(guides(results)) > 1 else "exponent"
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
-        Exponents fitted over successive octaves of time; with {named_start(rest)} the first is {{first}}. The
-        last is {{last}}. Dashed guides, not fits: {name} {{laws}}."""
-    return fill(text, first=first, last=last if len(found) > 1 else None, laws=laws)
+        Exponents fitted over about an octave of time each; if {named_start(rest)}: {{found}}. Dashed guides,
+        not fits: {name} {{laws}}."""
+    return fill(text, found=found, laws=laws)
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -24,7 +24,7 @@ def named_start(result: Result) -> str:
     """The start in words."""
     words = {"particles": "warm", 0: "at rest"}
     state = words.get(start(result)) or f"at T = {format_number(float(start(result)))}"
-    return f"scatterers initially {state}"
+    return f"scatterers start {state}"
 
 
 def look(result: Result) -> tuple[str, str, str]:
@@ -38,12 +38,14 @@ def in_order(results: Sequence[Result]) -> list[Result]:
 
 
 def label(result: Result) -> str:
-    """Start and size, those of the paper marked; runs of the user's own have their name."""
+    """Start, relaxation and size, the paper's start marked; runs of the user's own have their name."""
     if result.run not in LOOKS:
         return result.run
+    time = float(result.parameters["relaxation_time"])
+    relaxed = f", relaxed for {format_number(time)}" if time else ""
     paper = " (paper)" if start(result) == 0 else ""
     size = f", $N = {result.parameters['cells']}$" if result.run == "long" else ""
-    return named_start(result) + paper + size
+    return named_start(result) + relaxed + paper + size
 
 
 def look_of(result: Result) -> style.Look:

@@ -79,7 +79,7 @@ def noise(control: pd.DataFrame) -> Iterator[Line]:
     control = control[control.middle <= control[control.rule != "elastic"].middle.max()]
     for (rule, epsilon), part in control.groupby(["rule", "epsilon"]):
         name, look = NOISE.get(rule, (f"{rule} ({epsilon:g})", style.points("P", style.GREEN)))
-        yield name, look, part
+        yield name, look | LINE, part
 
 
 def gases(elastic: pd.DataFrame, control: pd.DataFrame, sizes: pd.DataFrame) -> Iterator[Line]:
@@ -88,8 +88,9 @@ def gases(elastic: pd.DataFrame, control: pd.DataFrame, sizes: pd.DataFrame) -> 
     for _, gas in elastic.groupby(rings.STATE):
         zeta, mass = rings.texts(*gas[["zeta", "mass"]].iloc[0])
         look = NOISE["elastic"][1] if gas.index.isin(control.index).any() else style.points(*next(looks))
-        yield rf"$\zeta = {zeta}$, $M = {mass}$", look, gas
-    yield rf"fig. 8: $\zeta = {rings.SLOW_FLUX}/N$", OWN_LOOK, sizes
+        yield rf"$\zeta = {zeta}$, $M = {mass}$", look | LINE, gas
+    known = sizes.dropna(subset="middle")
+    yield f"fig. 8, $N = {known.cells.min()}$ to ${known.cells.max()}$", OWN_LOOK, known
 
 
 def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
@@ -97,7 +98,7 @@ def draw_exponents(axes: Axes, lines: Iterable[Line]) -> None:
     for label, look, part in lines:
         known = part.dropna(subset="middle")
         error = known.local_exponent_error
-        axes.errorbar(known.middle, known.local_exponent, error, label=label, **look | LINE)
+        axes.errorbar(known.middle, known.local_exponent, error, label=label, **look)
     style.guide_at(axes, 1, "1")
     style.guide_at(axes, 4 / 3, "4/3")
     axes.set(xscale="log", xlabel="time $t$", ylabel=r"exponent $\beta$")
@@ -110,10 +111,11 @@ def caption(sizes: pd.DataFrame, fractions: Iterable[float]) -> str:
     rows = [*known[known.cells >= min(FIRST, max(known.cells, default=FIRST))].itertuples()]
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
     text = """(a) Conductivity of heat of the chains of fig. 8, and the Green–Kubo value of rings of their
-        gas, ζ = 16/N, at the time in which sound crosses the chain. It has no free parameter, and is
-        {ratios} times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted
-        limit. (b) Random changes of momenta in {fraction} % of the collisions. (c) Gases of a fixed density,
-        and those of fig. 8's chains, each until sound crosses the chain."""
+        gas, ζ = 16/N, at the time in which sound crosses the chain: no parameter is fitted. It is {ratios}
+        times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted limit. (b) In
+        {fraction} % of the collisions the scatterer's momentum is reversed, or three momenta are rotated at
+        a fixed sum. (c) Gases of a fixed density; squares: one gas for each N of fig. 8, at the
+        time in which sound crosses the chain."""
     ratio = listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None
     return fill(text, ratios=ratio, fraction=listed(f"{100 * one:g}" for one in fractions))
 
@@ -139,7 +141,7 @@ def draw(results: Sequence[Result]) -> Parts:
     low, high = axes[2].get_ylim()
     axes[2].set_ylim(low, high + 0.3 * (high - low))  # room for the legends
     zeta, mass = rings.texts(broken.zeta, broken.mass)
-    titles = "fig. 8 and its own gas", rf"with noise, $\zeta = {zeta}$, $M = {mass}$", "without noise"
+    titles = "fig. 8 and its own gas", rf"effect of noise, $\zeta = {zeta}$, $M = {mass}$", "without noise"
     for panel, text in zip(axes, titles, strict=True):
         panel.set_title(text, size=style.label_size())
     style.letter(*axes)

@@ -32,7 +32,7 @@ UNITS |= dict.fromkeys(("position", "position_low", "position_high"), "1")
 EDGE = 3  # positions beyond it are arrows there
 LIMIT = 3.3  # of the frame
 ROW = 0.16  # inches
-NEARLY: style.Look = {"color": "0.965", "zorder": -2}
+NEARLY: style.Look = {"color": "#d9ecf8", "zorder": -2}
 NOT_MEASURED = "not measured"
 LOOKS = {
     Outcome.REPRODUCED: ("o", style.BLUE),
@@ -131,7 +131,7 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame) -> str:
     counts = listed(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
     return f"""{counts}. Bars: joint 95 % confidence intervals of the deciding numbers. Grey: acceptance band;
-        light: nearly. Unit: half the band, or half the bar if the band has one edge, so that positions
+        light blue: nearly. Unit: half the band, or half the bar if the band has one edge, so that positions
         compare within a row only. Triangles: off the scale."""
 
 

@@ -34,8 +34,8 @@ def _conductivities(data: Results, *series: str) -> dict[int, Estimate]:
 
 
 def superdiffusive(data: Results) -> list[Estimate]:
-    """beta of <Q²> ∼ t^beta in the last octave before sound crosses the chain, in the gas of every chain of
-    fig. 8."""
+    """beta of <Q²> ∼ t^beta in the last octave before sound crosses the chain, in the gases of the chains of
+    fig. 8 from N = 16 on."""
     return _exponents(data, {gas: (gas,) for gas in OWN})
 
 
