@@ -1,4 +1,4 @@
-"""The program that solves the kinetic equation: axes, consistency of its quantities, coverage of its
+"""The program that solves the Boltzmann equation: axes, consistency of its quantities, coverage of its
 errors."""
 
 from functools import partial

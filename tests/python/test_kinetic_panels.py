@@ -1,4 +1,4 @@
-"""Numbers of the panels of the flux against the kinetic equation (plotted.py)."""
+"""Numbers of the panels of the flux against the Boltzmann equation (plotted.py)."""
 
 import numpy as np
 import pytest
@@ -90,7 +90,7 @@ def test_fig03_inset() -> None:
 
 
 def test_fig04() -> None:
-    """Fluxes of the kinetic equation are 1 lower. Its jumps are 0.5 lower, with equal rates 2 + 0.7."""
+    """Fluxes of the Boltzmann equation are 1 lower. Its jumps are 0.5 lower, with equal rates 2 + 0.7."""
     p, bonds = np.array([-9.0, -1, 1, 3]), np.arange(9)
     chain, equal = CHAIN | {"momentum_max": 4}, {"nu_left": 200.0, "nu_right": 200.0}
     flux, jump = 10 + np.arange(36.0).reshape(9, 4), 1 + np.arange(9.0)

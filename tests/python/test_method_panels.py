@@ -76,7 +76,7 @@ def test_accuracy_has_a_floor_for_a_significant_deviation_and_kinetic_equations(
     assert_line(axes, [1, 2], [0.1, 0.01])
     names = {
         "cold start, relaxed for 7: −20.0(1.3) %",
-        *(rf"kinetic equation, $\gamma = {gamma}$" for gamma in (1, 5)),
+        *(rf"Boltzmann equation, $\gamma = {gamma}$" for gamma in (1, 5)),
     }
     assert {text.get_text() for text in axes.texts} == names
     assert "Dashed (N = 8)" in caption

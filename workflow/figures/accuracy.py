@@ -97,7 +97,7 @@ def floors(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def draw_errors(axes: Axes, table: pd.DataFrame, lines: pd.DataFrame) -> None:
-    """Plots what errors cost: a line through each of these runs, kinetic equations, and the deviations that
+    """Plots what errors cost: a line through each of these runs, Boltzmann equations, and the deviations that
     no number of replicas reduces."""
     kinetic, biased = table[table.series == "kinetic"], floors(table)
     shown = pd.concat([lines, kinetic])
@@ -128,7 +128,7 @@ def draw_errors(axes: Axes, table: pd.DataFrame, lines: pd.DataFrame) -> None:
     for (gamma, part), marker in zip(courses, cycle("sD^v"), strict=False):
         axes.plot(part.cpu_seconds, part.error, marker=marker, color=style.ORANGE)
         last = (part.cpu_seconds.iloc[-1], part.error.iloc[-1], style.ORANGE)
-        ends.append((rf"kinetic equation, $\gamma = {gamma}$", *last))
+        ends.append((rf"Boltzmann equation, $\gamma = {gamma}$", *last))
     style.name_ends(axes, ends)
 
 
@@ -157,7 +157,7 @@ def caption(table: pd.DataFrame, lines: pd.DataFrame) -> str:
     at = [f"{cost} s at N = {cells:g}" for cost, cells in zip(costs, kappa.cells, strict=True)]
     ends = listed(dict.fromkeys([at[0], at[-1]])) if at else None
     text = """(a) Relative errors and CPU times of simulations (circles), extrapolated as 1/√(CPU time),
-        and of the kinetic equation. Dashed (N = {biased}): bias of chains that relax for too short a
+        and of the Boltzmann equation. Dashed (N = {biased}): bias of chains that relax for too short a
         time, which no number of replicas reduces. (b) At γ = {gamma} an error of 1 % of κ costs {cost}."""
     biased = listed(f"{size:g}" for size in sizes) if len(sizes) else None
     return fill(text, biased=biased, cost=ends, gamma=kappa.gamma.iloc[0] if at else None)

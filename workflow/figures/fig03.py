@@ -1,4 +1,4 @@
-"""Fig. 3: momentum distribution of the particles at both ends, by the kinetic equation.
+"""Fig. 3: momentum distribution of the particles at both ends, by the Boltzmann equation.
 
 Below, each half over the Gaussian of its own rate and second moment, also for baths of equal temperatures.
 """
@@ -18,7 +18,7 @@ from workflow.lib.text import format_number
 from workflow.physics import run_parameters
 from workflow.physics.fluxes import reach
 
-TITLE = "Momentum distribution of the particles at both ends, by the kinetic equation"
+TITLE = "Momentum distribution of the particles at both ends, by the Boltzmann equation"
 UNITS = {"gaussian": "1/(time momentum)"}
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]

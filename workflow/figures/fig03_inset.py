@@ -1,7 +1,7 @@
-"""Fig. 3, inset: finite chains against the kinetic equation, for the particles that leave the chain.
+"""Fig. 3, inset: finite chains against the Boltzmann equation, for the particles that leave the chain.
 
 F_N(p, 0) for p < 0 and F_N(p, 1) for p > 0, both averaged over the bins, minus F, which integrates to 1 in a
-chain without correlations. Lines: the mean field, the kinetic equation of N scatterers.
+chain without correlations. Lines: the mean field, the Boltzmann equation of N scatterers.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from workflow.lib.load import Result
 from workflow.lib.text import format_with_error, listed
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, amplitudes, at_centre, deviations, reach
 
-TITLE = "Deviation of finite chains from the kinetic equation"
+TITLE = "Deviation of finite chains from the Boltzmann equation"
 UNITS = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1/momentum")
 
 BOUND, OF_LONGEST = 0.1, 0.01  # of the deviation in the paper, in %
@@ -59,7 +59,7 @@ def caption(table: pd.DataFrame) -> str:
         f"{format_with_error(100 * row.amplitude, 100 * row.error)} % at N = {row.cells}"
         for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
-    text = f"""The paper finds F_N − F, chain minus kinetic equation, below {BOUND} %, and {OF_LONGEST} % in
+    text = f"""The paper finds F_N − F, chain minus Boltzmann equation, below {BOUND} %, and {OF_LONGEST} % in
         the longest chain, if F integrates to 1. (a), (b) Outgoing particles (points); lines: mean field.
         (c) As p → 0: {{largest}}."""
     return fill(text, largest=largest)
@@ -67,7 +67,7 @@ def caption(table: pd.DataFrame) -> str:
 
 @plots("simulation continuum mean-field")
 def draw(results: Sequence[Result]) -> Parts:
-    require("the kinetic equation", results)
+    require("the Boltzmann equation", results)
     table = deviations(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["left", "right"], ["decay", "decay"]], figsize=size)

@@ -1,8 +1,8 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
 Further panels show the distribution near p = 0, its deviation from mean field, and its jump at p = 0; the
-last also for equal rates at both ends if gamma = N. Mean field is the kinetic equation: that of the continuum
-at gamma = 1, that of N scatterers at gamma = N.
+last also for equal rates at both ends if gamma = N. Mean field is the Boltzmann equation: that of the
+continuum at gamma = 1, that of N scatterers at gamma = N.
 """
 
 import math
@@ -38,7 +38,7 @@ def measured(results: Sequence[Result]) -> list[Result]:
 
 
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
-    """The solution of the kinetic equation for the chain of `like`; None if there is none."""
+    """The solution of the Boltzmann equation for the chain of `like`; None if there is none."""
     for result in results:
         # Options of one configuration, so that equal ones have equal bits.
         chain = {name: like.parameters[name] for name in CHAIN}
@@ -131,12 +131,12 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
 
 def theory(main: pd.DataFrame) -> str:
     """Name of the lines."""
-    return "mean field" if main.gamma.iloc[0] == "N" else "kinetic equation"
+    return "mean field" if main.gamma.iloc[0] == "N" else "Boltzmann equation"
 
 
 def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
-    claim = "follows the kinetic equation, with a jump at p = 0"
+    claim = "follows the Boltzmann equation, with a jump at p = 0"
     if main.gamma.iloc[0] == "N":
         claim = "has small jumps at p = 0"
     text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a), (b) Points: chain;

@@ -1,7 +1,7 @@
 """Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between
 neighbouring sizes, which are constant where a power law holds.
 
-Line: mean field, the kinetic equation of N scatterers. Points whose window is not stationary, or whose run
+Line: mean field, the Boltzmann equation of N scatterers. Points whose window is not stationary, or whose run
 stopped before its target, are crossed out and not used.
 """
 
@@ -82,7 +82,8 @@ def caption(table: pd.DataFrame) -> str:
     texts = [*map(format_with_error, known.exponent_to_next, known.exponent_to_next_error)]
     text = """The paper finds that κ = −J_U N/(T_N − T_1) grows as N^(1/3) at γ = N and as N at γ = 1
         (grey, not fits). κ includes convection. Mean field: without correlations. (b) Local exponents; at
-        γ = {gamma} at most {largest}, and {last} in the end. Open symbols, shifted: heat J_U − T J_n alone."""
+        γ = {gamma} at most {largest}, and {last} in the end. Open symbols, shifted: heat J_U − T J_n
+        alone."""
     largest = texts[int(known.exponent_to_next.argmax())] if texts else None
     return fill(text, gamma=gamma, largest=largest, last=texts[-1] if texts else None)
 

@@ -1,4 +1,4 @@
-"""Momentum distributions of open chains against the kinetic equation."""
+"""Momentum distributions of open chains against the Boltzmann equation."""
 
 from collections.abc import Sequence
 
@@ -21,7 +21,7 @@ def reach(flux: Quantity) -> float:
 
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
-    """Values of a solution of the kinetic equation at the grid point nearest to x."""
+    """Values of a solution of the Boltzmann equation at the grid point nearest to x."""
     return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
 
 
@@ -43,7 +43,7 @@ def in_bins(values: np.ndarray, count: int) -> np.ndarray:
     whole number of bins each."""
     if len(values) % count:
         raise FormatError(
-            f"{len(values)} bins of the kinetic equation are no multiple of the {count} of a chain"
+            f"{len(values)} bins of the Boltzmann equation are no multiple of the {count} of a chain"
         )
     return values.reshape(count, -1).mean(axis=1)
 

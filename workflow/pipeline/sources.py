@@ -76,8 +76,8 @@ def code_hashes(cpp: Path = CPP) -> dict[str, str]:
 
 
 def determines(path: str, program: str, cpp: Path = CPP) -> bool:
-    """Whether a source can change a result of a program: all but other observables, the solver of the kinetic
-    equation if the program does not include it, and rules and dynamics if it is not sampled."""
+    """Whether a source can change a result of a program: all but other observables, the solver of the
+    Boltzmann equation if the program does not include it, and rules and dynamics if it is not sampled."""
     first, *rest = path.split("/")
     if first == "observables":
         return rest[0].partition(".")[0] == program

@@ -82,7 +82,7 @@ def largest_distance(
 
 
 def jump_and_halves(data: Results) -> list[Estimate]:
-    """Jump of F at p = 0 over max F, and departure of the outgoing halves from a Gaussian, by the kinetic
+    """Jump of F at p = 0 over max F, and departure of the outgoing halves from a Gaussian, by the Boltzmann
     equation at both ends."""
     result = data.one("fig03", "paper")
     largest = float(result["flux_density"].mean.max())
@@ -109,7 +109,7 @@ def _magnitude(number: Estimate) -> Estimate:
 
 
 def _finite(data: Results) -> tuple[pd.DataFrame, float]:
-    """Deviations of finite chains from the kinetic equation, and the degrees of freedom of their errors."""
+    """Deviations of finite chains from the Boltzmann equation, and the degrees of freedom of their errors."""
     simulated = data.results("fig03_inset", "simulation")
     continuum, mean_field = data.one("fig03_inset", "continuum"), data.results("fig03_inset", "mean-field")
     table = deviations([*simulated, continuum, *mean_field])
@@ -183,7 +183,7 @@ def tends_to_kinetic(data: Results) -> list[Estimate]:
 
 
 def on_top_of_kinetic(data: Results) -> list[Estimate]:
-    """F_N minus the solution F of the kinetic equation over the largest F, at both ends of the chain with
+    """F_N minus the solution F of the Boltzmann equation over the largest F, at both ends of the chain with
     gamma = 1."""
     simulated, kinetic = data.one("fig04a", "rare"), data.one("fig04a", "kinetic")["flux"]
     flux, scale = simulated["flux"], float(kinetic.mean.max())
@@ -196,7 +196,7 @@ def on_top_of_kinetic(data: Results) -> list[Estimate]:
 
 
 def _behind(solution: Quantity, bond: int, flux: Quantity) -> np.ndarray:
-    """Values of a solution of the kinetic equation at the position of a bond of the chain."""
+    """Values of a solution of the Boltzmann equation at the position of a bond of the chain."""
     bonds = flux.axes["bond"]
     return at(solution, bonds[bond] / bonds[-1])
 
@@ -222,7 +222,7 @@ def jump_from_rates_only(data: Results) -> list[Estimate]:
 
 
 def _extrapolation_errors(kinetic: Result, flux: Quantity) -> Sequence[float]:
-    """Error at both ends if the jump is extrapolated from the bins of the kinetic equation."""
+    """Error at both ends if the jump is extrapolated from the bins of the Boltzmann equation."""
     errors = []
     for bond, _ in ENDS:
         bins, exact = (_behind(kinetic[name], bond, flux) for name in ("flux", "jump"))
