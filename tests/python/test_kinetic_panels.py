@@ -109,4 +109,4 @@ def test_fig04() -> None:
     unit, error = (flux[-1] - 1).max() / 100, runs[0]["flux"].error
     halves = [(bond, half) for bond in (1, -1) for half in (p < 0, p > 0)]
     assert_points(residual, *((p[half], 1 / unit, error[bond][half] / unit) for bond, half in halves))
-    np.testing.assert_allclose(table.kinetic_jump, table.jump - np.where(table.nu_left == 200, 2.7, 0.5))
+    np.testing.assert_allclose(table.theory_jump, table.jump - np.where(table.nu_left == 200, 2.7, 0.5))

@@ -119,7 +119,8 @@ def test_stability() -> None:
     np.testing.assert_allclose(bars, [(row, 2 * 0.01001) for row in rows])
     assert_line(extremes, [10.0] * 2, [0, 1])  # rounding of the energy
     assert [label.get_text() for label in extremes.get_yticklabels()] == [*limits]
-    assert_points(drifts, *(([100, 1e4], [each, 100 * each], 0) for each in (0.1, 0.3, 1.0, 3.0)))
+    changes = (np.array([each, 100 * each]) for each in (0.1, 0.3, 1.0, 3.0))
+    assert_points(drifts, *(([100, 1e4], change, 0.01 * change) for change in changes))
     assert_line(drifts, [100, 1e4], 2.0**-53 * np.array([10, 100]))
     assert "at most 0.1 standard errors" in caption
-    assert "by 1.0·10¹ as computed here. The paper's formula changes it by 1.0·10²." in caption
+    assert "by 1·10¹ as computed here. The paper's formula changes it by 1·10²." in caption

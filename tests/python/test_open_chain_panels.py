@@ -51,7 +51,7 @@ def test_fig02_lower() -> None:
     assert_points(above, (x, density, error))
     assert_line(above, x, line)
     assert_points(below, (x, density / line, error / line))
-    assert "at most 30.00(28) % at γ = 1." in caption
+    assert "by 20.00(25) % and 30.00(28) % at γ = 1." in caption
 
 
 def test_fig08() -> None:

@@ -28,7 +28,7 @@ NUMBER = re.compile(r"(?<![\w.^(−⁻|/])−?\d+(?:\.\d+)?(?:·10[⁻\w]+)?(?![
 FIXED = {"fig02_upper": "1", "fig02_lower": "1", "fig03": "0 1", "fig03_inset": "0 0.1 0.01 1", "fig04a": "0"}
 FIXED |= {
     "fig04b": "0",
-    "fig05": "0",
+    "fig05": "0 2",
     "fig06": "−3 −2 0 50",
     "fig07": "2",
     "fig07_inset": "0 1 2",

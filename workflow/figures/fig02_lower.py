@@ -33,13 +33,12 @@ def tabulate(result: Result) -> pd.DataFrame:
 def caption(results: Sequence[Result]) -> str:
     excess = []
     for result in results:
-        end = int(result["density_excess"].mean.argmax())
-        percent = format_quantity(result["density_excess"], end, 100)
-        excess.append(f"{percent} % at γ = {run_parameters.gamma(result)}")
+        ends = [f"{format_quantity(result['density_excess'], end, 100)} %" for end in (0, 1)]
+        excess.append(f"{listed(ends)} at γ = {run_parameters.gamma(result)}")
     text = """The paper finds that particles accumulate at the ends of the chain, more at γ = 1. (a)
-        Particles per cell, with lines through the bulk (shaded). (b) The density over these lines: an end
-        cell exceeds its line by at most {excess}. Bars: without the error of the line."""
-    return fill(text, excess=listed(excess))
+        Particles per cell, with lines through the bulk (shaded). (b) The density over these lines: the first
+        and the last cell exceed them by {excess}. Bars: without the error of the line."""
+    return fill(text, excess=", ".join(excess))
 
 
 @plots("deterministic rare")

@@ -50,7 +50,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     axes.margins(y=0.2)  # room for the legend
     style.guide_at(axes, BOUND, "bound")
     style.guide_at(axes, OF_LONGEST, f"bound,\n$N = {points.cells.max()}$")
-    axes.set(ylabel=f"$|F_N - F|$ / {UNIT}")
+    axes.set(ylabel=f"$|F_N - F|$ in {UNIT}")
     axes.legend(loc="lower left", bbox_to_anchor=(0, 0.2))
 
 
@@ -74,7 +74,7 @@ def draw(results: Sequence[Result]) -> Parts:
     shown = reach(next(result["flux"] for result in results if result.parameters["cells"] == "continuum"))
     draw_end(panels["left"], table, -1, shown, "left end, $x = 0$")
     draw_end(panels["right"], table, 1, shown, "right end, $x = 1$")
-    panels["left"].set_ylabel(f"$F_N - F$ / {UNIT}")
+    panels["left"].set_ylabel(f"$F_N - F$ in {UNIT}")
     panels["left"].legend(loc="upper left", handletextpad=0.2)
     draw_decay(panels["decay"], table)
     style.letter(*panels.values())

@@ -22,7 +22,7 @@ from workflow.physics import run_parameters
 from workflow.physics.fluxes import at, reach
 
 TITLE = "Momentum distribution of the particles at both ends of an open chain, γ = {gamma}"
-UNITS = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
+UNITS = dict.fromkeys(("theory", "theory_jump"), "1/(time momentum)")
 
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
@@ -57,7 +57,7 @@ def at_ends(results: Sequence[Result]) -> pd.DataFrame:
         part["jump"], part["jump_error"] = jump.mean[bond], jump.error[bond]
         if expected:
             where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
-            part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
+            part["theory"], part["theory_jump"] = at(expected["flux"], where), at(expected["jump"], where)
         part["nu_left"], part["nu_right"] = result.ends("nu")
         part.insert(0, "gamma", run_parameters.gamma(result))
         parts.append(part)
@@ -77,7 +77,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
         for half in halves(part[part.momentum.abs() < reach]):
             look = style.points(marker, color, markersize=2, capsize=0)
             axes.errorbar(half.momentum, half.flux, half.flux_error, label=label, **look)
-            axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
+            axes.plot(half.momentum, half.theory, color=style.BLACK, linewidth=0.6, zorder=1)
             label = None
     axes.axvline(0, **style.GUIDE)
     axes.set(xlabel=f"momentum $p$ ({style.UNIT_SYSTEM})", ylabel="$F_N(p, x)$", xlim=(-reach, reach))
@@ -87,14 +87,14 @@ def draw_residuals(axes: Axes, table: pd.DataFrame, shown: float) -> None:
     for end, part in table.groupby("x", sort=False):
         _, color, dashes, marker = ENDS[end]
         for half in halves(part[part.momentum.abs() < shown]):
-            unit = table.kinetic.max() / 100
+            unit = table.theory.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
             look |= {"elinewidth": 0.6, "linewidth": 0.6}
-            residual = (half.flux - half.kinetic) / unit
+            residual = (half.flux - half.theory) / unit
             axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
     axes.axhline(0, color=style.BLACK, linewidth=0.6)
     axes.axvline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", ylabel=r"$F_N - F$ / % of max $F$", xlim=(-shown, shown))
+    axes.set(xlabel="momentum $p$", ylabel=r"$(F_N - F)/\max F$ in %", xlim=(-shown, shown))
 
 
 def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
@@ -112,7 +112,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
             _, color, _, marker = ENDS[end.x]
             look = {"marker": marker, "color": color, **style.POINTS}
             axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
-            axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
+            axes.plot(end.theory_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
             text: style.Look = {"ha": "right", "va": "center", "size": style.label_size(), "color": color}
             text |= {"transform": axes.get_yaxis_transform()}
             axes.text(0.98, -row + shift, format_with_error(end.jump, end.jump_error), **text)
@@ -135,13 +135,13 @@ def theory(main: pd.DataFrame) -> str:
 
 
 def caption(main: pd.DataFrame, unequal: pd.DataFrame) -> str:
-    far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
+    far = 100 * (unequal.flux - unequal.theory).abs().max() / unequal.theory.max()
     claim = "follows the Boltzmann equation, with a jump at p = 0"
     if main.gamma.iloc[0] == "N":
         claim = "has small jumps at p = 0"
-    text = f"""The paper finds that F_N(p, x) behind the end scatterers {claim}. (a), (b) Points: chain;
-        lines: {theory(main)}. (c) Points minus lines, at most {{largest}} % of the largest F. (d) Jumps
-        at p = 0, and those of the lines (ticks)."""
+    text = f"""The paper finds that F_N(p, x) to the right of the first and of the last scatterer {claim}.
+        (a), (b) Points: chain; lines: {theory(main)}. (c) Points minus lines, at most {{largest}} % of the
+        largest F. (d) Jumps at p = 0, and those of the lines (ticks)."""
     largest = f"{math.ceil(10 * far) / 10:g}" if math.isfinite(far) else None
     return fill(text, largest=largest)
 

@@ -77,10 +77,10 @@ def caption(table: pd.DataFrame) -> str:
         largest[name] = format_with_error(abs(far.deviation), far.mu_error)
     sigmas = listed(map(format_number, sorted({*table[table.cold].sigma}))) if table.cold.any() else ""
     but = f" except at σ = {sigmas}, where heavy scatterers have not relaxed" if sigmas else ""
-    text = f"""The paper states the probability μ that a particle keeps its direction as an integral, here
-        arccos(σ)/π. (b) Difference from this law: in the paper's ring at most {{paper}}{but}. With
-        {{density}} particles per cell it is at most {{dense}}. Dashed: the law corrected for the conserved
-        total momentum Π."""
+    text = f"""The paper states the probability μ that a particle keeps its direction as an integral, which
+        with a missing factor 2 is arccos(σ)/π. (b) Difference from this law: in the paper's ring at most
+        {{paper}}{but}. With {{density}} particles per cell it is at most {{dense}}. Dashed: the law
+        corrected for the conserved total momentum Π."""
     n = {str(cells) for cells in table[table.series == "dense"].particles_per_cell}
     density = listed(sorted(n)) if n else None
     numbers = {name: largest.get(name) for name in ("paper", "dense")}

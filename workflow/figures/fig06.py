@@ -88,10 +88,10 @@ def mark_outside(axes: Axes, table: pd.DataFrame, color: str, power: float, top:
 
 def caption(results: Sequence[Result]) -> str:
     powers = listed(f"−{power} at σ = {format_number(sigma)}" for sigma, power in POWERS.items())
+    products = listed(f"τ^{power}" for power in POWERS.values())
     text = f"""The paper finds that the density Ψ of waiting times τ has the exponents {powers}. Fits over
-        the shaded times give {{exponents}}. Below: Ψ divided by these powers. Line: exact, σ = 0, n → ∞.
-        Open symbols: errors above {100 * UNSURE:.0f} %. Bins without events are left out, which raises the
-        end."""
+        the shaded times give {{exponents}}. Below: Ψ times {products}. Line: exact, σ = 0, n → ∞.
+        Open symbols: errors above {100 * UNSURE:.0f} %. Empty bins are left out, which raises the end."""
     return fill(text, exponents=listed(format_quantity(result["exponent"]) for result in results))
 
 

@@ -66,8 +66,8 @@ def extreme(part: pd.DataFrame, row: int) -> str | None:
 
 def caption(table: pd.DataFrame) -> str:
     least, most = (extreme(table[table.kind == kind], row) for kind, row in ((PAPERS, 0), (ZERO, -1)))
-    text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. For σ ≠ 0 α is at least {least} at the
-        paper's random total momentum (a), and at most {most} at zero total momentum, without drift of the
+    text = """The paper finds ⟨x²⟩ ∼ t^α with 1 < α < 2 for σ ≠ 0. For σ ≠ 0 α is at least {least} at
+        random total momentum (a), and at most {most} at zero total momentum, without drift of the
         ring (b). Diamonds: random directions, as in the paper's footnote; t_r: relaxation
         time."""
     return fill(text, least=least, most=most)

@@ -80,8 +80,8 @@ def caption(table: pd.DataFrame) -> str:
     gamma = max(table.gamma, default="N")  # N is after any digit
     known = table[table.gamma == gamma].dropna(subset="exponent_to_next")
     texts = [*map(format_with_error, known.exponent_to_next, known.exponent_to_next_error)]
-    text = """The paper finds that κ = −J_U N/(T_N − T_1) grows as N^(1/3) at γ = N and as N at γ = 1
-        (grey, not fits). κ includes convection. Mean field: without correlations. (b) Local exponents; at
+    text = """The paper finds that κ grows as N^(1/3) at γ = N and as N at γ = 1 (grey, not fits). Here κ
+        is −J_U N/(T_N − T_1), with convection. Mean field: without correlations. (b) Local exponents; at
         γ = {gamma} at most {largest}, and {last} in the end. Open symbols, shifted: heat J_U − T J_n
         alone."""
     largest = texts[int(known.exponent_to_next.argmax())] if texts else None

@@ -51,7 +51,8 @@ def drifts(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def exact_current(result: Result) -> float:
-    """J_U of ballistic particles or momenta, of which a fraction is transmitted: 1 without walls [eq. 35]."""
+    """J_U of ballistic particles or momenta, of which a fraction is transmitted [eqs. 29, 39]: 1 without
+    walls."""
     require("the exact energy current", [result])
     sigma, gamma = float(result.parameters["sigma"]), result.parameters["gamma"]
     if min(abs(sigma), 1 - abs(sigma), math.inf if gamma == "N" else float(gamma)) > EXTREME:
@@ -102,7 +103,8 @@ def draw_drifts(axes: Axes, table: pd.DataFrame) -> None:
     ends = []
     for (rule, part), (marker, color) in zip(table.groupby("rule"), cycle(style.LOOKS), strict=False):
         for name, face in (("energy_change", color), ("momentum_change", "white")):
-            axes.errorbar(part.collisions, part[name], **style.points(marker, color, face))
+            look = style.points(marker, color, face)
+            axes.errorbar(part.collisions, part[name], part[f"{name}_error"], **look)
             label = f"{name.partition('_')[0]} {RULES.get(rule, rule)}"
             ends.append((label, part.collisions.iloc[-1], part[name].iloc[-1], color))
     walk = np.array([table.collisions.min(), table.collisions.max()])
@@ -116,7 +118,7 @@ def caption(walks: pd.DataFrame, known: pd.DataFrame) -> str:
     longest = (
         walks[walks.observation_time == walks.observation_time.max()].groupby("rule").energy_change.max()
     )
-    changes = {rule: scientific(longest[rule]) if rule in longest else None for rule in RULES}
+    changes = {rule: scientific(longest[rule], 1) if rule in longest else None for rule in RULES}
     text = f"""(a) Dots: deviations of energy currents in extreme chains from exact values, at most {{score}}
         standard errors (grey bars: {BAR}). Dotted: rounding error of the energy. (b) Relative changes by
         rounding at σ = {{sigma}}. {{collisions}} collisions change the energy by {{elastic}} as computed

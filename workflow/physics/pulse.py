@@ -45,7 +45,7 @@ def label(result: Result) -> str:
     relaxed = f", relaxed for {format_number(time)}" if time else ""
     paper = " (paper)" if start(result) == 0 else ""
     size = f", $N = {result.parameters['cells']}$" if result.run == "long" else ""
-    return named_start(result) + relaxed + paper + size
+    return named_start(result) + paper + relaxed + size
 
 
 def look_of(result: Result) -> style.Look:

@@ -110,12 +110,12 @@ def caption(sizes: pd.DataFrame, fractions: Iterable[float]) -> str:
     known = sizes[sizes.usable].dropna(subset="ratio_error").sort_values("cells")
     rows = [*known[known.cells >= min(FIRST, max(known.cells, default=FIRST))].itertuples()]
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
-    text = """(a) Conductivity of heat of the chains of fig. 8, and the Green–Kubo value of rings of their
-        gas, ζ = 16/N, at the time in which sound crosses the chain: no parameter is fitted. It is {ratios}
-        times that of the chains. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted limit. (b) In
-        {fraction} % of the collisions the scatterer's momentum is reversed, or three momenta are rotated at
-        a fixed sum. (c) Gases of a fixed density; squares: one gas for each N of fig. 8, at the
-        time in which sound crosses the chain."""
+    text = """(a) Conductivity of heat of fig. 8's chains, and by Green–Kubo of their gas, ζ = 16/N, at the
+        time in which sound crosses the chain. The latter, without a fitted parameter, is {ratios} times the
+        former. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted limit. (b) In {fraction} % of the
+        collisions the scatterer's momentum is reversed, or three momenta are rotated at a fixed sum. (c)
+        Gases of a fixed density; open squares: those of fig. 8, in the octave until sound crosses the chain.
+        t: middle of an octave, in λ/√T."""
     ratio = listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None
     return fill(text, ratios=ratio, fraction=listed(f"{100 * one:g}" for one in fractions))
 

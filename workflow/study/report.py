@@ -7,7 +7,7 @@ import base64
 import re
 import sys
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +17,14 @@ import pandas as pd
 from workflow.lib.columns import TableError, as_text
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, load
+from workflow.lib.text import listed
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.plan import Panel, Plan, runs_of
 from workflow.render.files import format_os_error, write_atomically
 from workflow.render.record import identity_line, read_record
 from workflow.render.save import commit, write_product
 from workflow.study import typeset
-from workflow.study.judge import PRINTED, Judgement, changed, judge_all
+from workflow.study.judge import KINDS, PRINTED, Judgement, changed, judge_all
 from workflow.study.results import Results
 from workflow.study.verdict import Outcome
 
@@ -53,13 +54,19 @@ def rendered(judgements: Sequence[Judgement], plan: Plan, root: Path, *, release
         figures[typeset.figure_of(row["panel"])].append(row)
     page = environment.get_template("gallery.md.j2" if release else "report.html.j2").render(
         quality=quality.name,
-        counts={outcome.name: sum(row["outcome"] is outcome for row in rows) for outcome in Outcome},
+        counts=[count(rows, kind) for kind in KINDS],
         rows=rows,
         figures=figures,
         panels=[context(panel, root) for panel in plan.reported],
         with_bands=[(text, changed(judgements, factor)) for text, factor in (("half", 0.5), ("twice", 2))],
     )
     return page.encode()
+
+
+def count(rows: Sequence[Mapping[str, Any]], kind: str) -> tuple[int, str]:
+    """Number of statements of this kind, and by verdict: `20 reproduced (✓) and 3 contradicted (✗)`."""
+    own = [row["outcome"] for row in rows if row["kind"] == kind]
+    return len(own), listed(f"{own.count(one)} {one.value} ({SIGNS[one]})" for one in Outcome if one in own)
 
 
 def context(panel: Panel, root: Path) -> dict[str, Any]:

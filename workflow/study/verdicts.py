@@ -132,7 +132,7 @@ def caption(table: pd.DataFrame) -> str:
     counts = listed(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
     return f"""{counts}. Bars: joint 95 % confidence intervals of the deciding numbers. Grey: acceptance band;
         light blue: nearly. Unit: half the band, or half the bar if the band has one edge, so that positions
-        compare within a row only. Triangles: off the scale."""
+        compare within a row only. Triangles and cut bars: off the scale."""
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -115,9 +115,9 @@ def random_directions(data: Results) -> list[Estimate]:
 def momentum_changes(data: Results) -> list[Estimate]:
     """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten.
     Changes below the rounding error are replaced by it."""
-    name = "log₁₀ of the change of the total momentum over Σ|p| + Σ|P|"
+    name = "log₁₀(|change of Π|/(Σ|p| + Σ|P|))"
     drifts = []
-    for series, where in (("all", ""), ("zero-momentum", ", from 0")):
+    for series, where in (("all", ""), ("zero-momentum", ", Π = 0")):
         runs = [run for run in data.results("fig07_inset", series) if run.parameters["sigma"]]
         drifts += _named(runs, "momentum_change", name + where)
     changes = []
