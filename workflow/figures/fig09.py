@@ -28,7 +28,6 @@ TITLE = "Energy difference after a pulse, γ = {gamma}"
 UNITS = {"distance": "1"}
 
 FAINT = 0.45
-FRAME = 1.15  # over the largest peak: the scatterer of the central cell does not set the scale
 
 
 def sound_speed(rest: Result) -> float:
@@ -109,13 +108,10 @@ def draw(results: Sequence[Result]) -> Parts:
     panels["gaussian"].sharey(rest)
     common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
     shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
-    heights = np.concatenate([r["peak"].mean[np.isin(r["peak"].axes["time"], shown)] for r in results])
     tables = []
     for result in results:
         tables.append(draw_profiles(panels[result.run], result, shown))
         draw_motion(position, speed, result)
-    if np.isfinite(heights).any():
-        rest.set_ylim(top=FRAME * np.nanmax(heights) / 1e3)
     if with_sound(results[0]):
         style.guide_at(speed, sound_speed(results[0]), "sound (rest)", color=look(results[0])[1])
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNIT_SYSTEM})")

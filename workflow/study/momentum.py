@@ -120,7 +120,7 @@ def caption(sizes: pd.DataFrame, fractions: Iterable[float]) -> str:
     return fill(text, ratios=ratio, fraction=listed(f"{100 * one:g}" for one in fractions))
 
 
-SERIES = " ".join(f"{OWN}{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))
+SERIES = " ".join(f"{OWN}{cells}" for cells in rings.SIZES)
 SERIES += " light dense sparse thin thin-long light-longest dense-longest sparse-longest thin-longest"
 SERIES += " light-rotation light-reversal thin-rotation thin-reversal deterministic deterministic-large"
 

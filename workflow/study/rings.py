@@ -12,6 +12,7 @@ from workflow.physics import run_parameters
 from workflow.physics.sound import Chain
 
 STATE = ["sigma", "fugacity", "temperature", "cell_length"]  # parameters of a gas
+SIZES = (16, 32, 64, 128, 256, 512, 1024, 2048)  # N of the chains of fig. 8 whose gas is observed
 SLOW_FLUX = 16  # z in the middle of fig. 8's chain: between 19.4 and 13.0, those of its baths
 SECOND_MOMENT = 0.510523  # of f_KPZ, the shape of a peak of sound
 GAS = ["rule", "epsilon", *STATE]  # columns that identify a gas

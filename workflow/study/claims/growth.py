@@ -5,13 +5,12 @@ from collections.abc import Mapping, Sequence
 
 from workflow.lib.load import Result
 from workflow.study.results import Results, by_size, combination, estimate, octaves
-from workflow.study.rings import chain, texts
+from workflow.study.rings import SIZES, chain, texts
 from workflow.study.verdict import Estimate
 
 FIRST = 32  # cells from which power laws of kappa are judged: shorter chains consist mainly of their ends
 LONGEST = ("", "-long", "-longest")  # ends of the names of the series of a gas
 GASES = ("light", "dense", "sparse", "thin")  # rings without noise
-OWN = tuple(f"gas-{cells}" for cells in (16, 32, 64, 128, 256, 512, 1024, 2048))  # of fig. 8's chains
 RULES = ("rotation", "reversal")
 DISTURBED = ("light", "thin")  # those also with noise in 10 % of the collisions
 
@@ -36,7 +35,7 @@ def _conductivities(data: Results, *series: str) -> dict[int, Estimate]:
 def superdiffusive(data: Results) -> list[Estimate]:
     """beta of <Q²> ∼ t^beta in the last octave before sound crosses the chain, in the gases of the chains of
     fig. 8 from N = 16 on."""
-    return _exponents(data, {gas: (gas,) for gas in OWN})
+    return _exponents(data, {f"gas-{cells}": (f"gas-{cells}",) for cells in SIZES})
 
 
 def superdiffusive_at_fixed_density(data: Results) -> list[Estimate]:
