@@ -59,7 +59,7 @@ def sentences(results: Sequence[Result], script: str) -> str:
     every = {result.series for result in results}
     others = [f"{text} in {quoted(some)}" if {*some} != every else text for text, some in alike.items()]
     sentence = f"{', '.join(texts.values())}." if texts else ""
-    return f"{sentence} Not the paper's: {'; '.join(others)}.".lstrip() if others else sentence
+    return f"{sentence} Unlike the paper: {'; '.join(others)}.".lstrip() if others else sentence
 
 
 def require_one_value(results: Sequence[Result], script: str, varied: Collection[str]) -> None:
@@ -108,7 +108,7 @@ def _agrees(value: Any, paper: Collection[Any]) -> bool:
 
 
 def _equation(name: str, values: Collection[Any]) -> str:
-    return f"{SYMBOLS.get(name, name.replace('_', '-'))}{' ' if name == 'rule' else ' = '}{as_list(values)}"
+    return f"{SYMBOLS.get(name, name.replace('_', ' '))}{' ' if name == 'rule' else ' = '}{as_list(values)}"
 
 
 def as_list(values: Collection[Any]) -> str:
