@@ -29,7 +29,7 @@ def test_front_page_has_the_verdicts_of_the_release() -> None:
     printed = {line["claim"]: line["claim_verdict"] for line in RELEASE if line["kind"] == "as printed"}
     outcomes = ("reproduced", "nearly reproduced", "contradicted", "undecided")
     held, nearly, failed, undecided = map([*printed.values()].count, outcomes)
-    count = f"Of the paper's {len(printed)} statements {held} are reproduced, {nearly} nearly, {failed} "
+    count = f"{held} of the paper's {len(printed)} statements are reproduced, {nearly} nearly, {failed} "
     count += f"contradicted and {undecided} undecided"
     text = (ROOT / "README.md").read_text()
     assert re.search(count, " ".join(text.split()))

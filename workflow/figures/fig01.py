@@ -18,7 +18,7 @@ from workflow.lib import style
 from workflow.lib.caption import fill
 from workflow.lib.figure import Parts, holds, plots
 from workflow.lib.load import Result
-from workflow.lib.text import format_quantity
+from workflow.lib.text import format_quantity, listed
 from workflow.physics import run_parameters
 
 TITLE = "Momentum distribution of the particles in a filling chain"
@@ -63,13 +63,22 @@ def number_bins(axes: Axes, result: Result) -> None:
     axes.secondary_xaxis("top", functions=scales).set_xlabel("bin number")
 
 
-def caption(chain: Result) -> str:
+def is_filling(result: Result) -> bool:
+    """Whether the height above the front still grows."""
+    height = result["plateau"]
+    return bool(height.mean[-1] - height.mean[0] > 5 * np.hypot(*height.error[[0, -1]]))
+
+
+def caption(results: Sequence[Result]) -> str:
+    chain, filling = results[0], [run_parameters.spacing(one)[1] for one in results if is_filling(one)]
     first, last = (format_quantity(chain["plateau"], k) for k in (0, -1))
     text = """The paper finds |p| n_t(p) stationary above a front p₀(t), which falls. Top: linear bins;
         middle: logarithmic bins, summed over both signs of p, with p₀(t) (circles). At λ = {spacing} the
         height above p₀ is {first} at the first time and {last} at the last. Bottom: p₀ divided by λ/(et),
-        its value for a stationary flux."""
-    return fill(text, spacing=run_parameters.spacing(chain)[1], first=first, last=last)
+        its value for a stationary flux. At λ = {filling} the chain still fills."""
+    spacing = run_parameters.spacing(chain)[1]
+    filling_at = listed(filling) if filling else None
+    return fill(text, spacing=spacing, first=first, last=last, filling=filling_at)
 
 
 @plots("unit-spacing unit-chain", varied="cell_length")
@@ -103,4 +112,4 @@ def draw(results: Sequence[Result]) -> Parts:
     style.letter(*rows[1:].flat, first=len(results))
     curves = rows[1, 0].get_legend_handles_labels()
     figure.legend(*curves, loc="outside upper center", ncols=3 * len(results) // 2)
-    return figure, pd.concat(tables), caption(results[0])
+    return figure, pd.concat(tables), caption(results)

@@ -112,8 +112,9 @@ def caption(sizes: pd.DataFrame, fractions: Iterable[float]) -> str:
     ratios = [f"{format_with_error(row.ratio, row.ratio_error)} at N = {row.cells}" for row in rows]
     text = """(a) Conductivity of heat of fig. 8's chains, and by Green–Kubo of their gas, ζ = 16/N, at the
         time in which sound crosses the chain. The latter, without a fitted parameter, is {ratios} times the
-        former. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted limit. (b) In {fraction} % of the
-        collisions the scatterer's momentum is reversed, or three momenta are rotated at a fixed sum. (c)
+        former. (b), (c) β of ⟨Q²⟩ ∼ t^β: 1 is diffusion, 4/3 the predicted limit. (b) One of two gases: in
+        {fraction} % of the collisions the scatterer's momentum is reversed, or three momenta are rotated at a
+        fixed sum. (c)
         Gases of a fixed density; open squares: those of fig. 8, in the octave until sound crosses the chain.
         t: middle of an octave, in λ/√T."""
     ratio = listed(dict.fromkeys([ratios[0], ratios[-1]])) if ratios else None

@@ -8,9 +8,9 @@ from workflow.study.verdict import Estimate
 
 RUNS = {"deterministic": "γ = N", "rare": "γ = 1"}
 DEVIATIONS = (  # quantity, label, number of the first scatterer or bond
-    ("rate_right", "rate to the right at scatterer", 1),
-    ("rate_left", "rate to the left at scatterer", 1),
-    ("particle_current", "particle current through bond", 0),
+    ("rate_right", "(rate to the right - line)/mean, scatterer", 1),
+    ("rate_left", "(rate to the left - line)/mean, scatterer", 1),
+    ("particle_current", "(particle current - mean)/rate, bond", 0),
 )
 
 
