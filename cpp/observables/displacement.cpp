@@ -1,7 +1,7 @@
 /// Displacement of a tagged particle: <x^2> of the unwrapped displacement x(t) since the end of the
 /// relaxation, averaged over all particles, on a logarithmic grid of times.
 ///
-/// The closed chain conserves the total momentum [eq. 3]. The paper's random initial state gives it a value
+/// The closed chain conserves the total momentum [eq. 3]. A random initial state gives it a value
 /// of order sqrt(nN T), and the centre of mass of the particles drifts [eq. 20, eq. 21]. The square of the
 /// mean displacement of a replica's particles is stored; its subtraction does not restore diffusion [eq. 22],
 /// whereas --zero-total-momentum removes the drift itself. The drift is common to all particles of a replica

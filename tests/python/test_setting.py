@@ -24,7 +24,7 @@ FILES = ("paper.yaml", "study.yaml")  # panels of other files are the user's own
 PLOTTED = [panel for panel in Plan("paper") if panel.file.name in FILES and panel.plotted]
 PANELS = {panel.name: panel for panel in PLOTTED if setting.stated(panel.script)}
 WORDS = {"start": "cold", "scatterer_temperature": 300.0, "cell_length": 0.1, "gamma": 7.0, "cells": 9}
-MOST = 45  # words of the parameters of a shipped panel
+MOST = 43  # words of the parameters of a shipped panel
 
 
 def script_of(panel: Panel) -> ModuleType:
@@ -103,7 +103,7 @@ def with_another(result: Result, name: str) -> Result:
 def states(text: str, results: Iterable[Result], name: str) -> bool:
     """Whether a text has the value of each of the results, after the symbol."""
     before = (
-        rf"(?:^|[,;:] ){re.escape(setting.SYMBOLS.get(name, name.replace('_', ' ')))} (?:= )?(?:[^=;]*[ ,])?"
+        rf"(?:^|[,;:] ){re.escape(setting.SYMBOLS.get(name, name.replace('_', '-')))} (?:= )?(?:[^=;]*[ ,])?"
     )
     values = {setting.as_list([setting.model(one, {})[name]]) for one in results}
     return all(re.search(rf"{before}{re.escape(value)}(?=[ ,.;]|$)", text) for value in values)

@@ -35,7 +35,8 @@ def moment(power: int, sign: int) -> Expr:
 
 
 def fields_and_currents() -> tuple[Matrix, Matrix]:
-    """g and e per length and their currents [eq. 51] in T and w, at a fixed flux F(0) of slow particles."""
+    """Momentum and energy per length and their currents [eq. 51] in T and w, at a fixed flux F(0) of slow
+    particles."""
     z = flux * second_order(exp(w**2 / (2 * T)))
     fields = z * moment(0, -1) + M * w / length, z * moment(1, 1) / 2 + (T + M * w**2) / (2 * length)
     currents = z * moment(1, 1), z * moment(2, -1) / 2

@@ -22,6 +22,7 @@ from workflow.lib.text import format_quantity, listed
 from workflow.physics import run_parameters
 
 TITLE = "Momentum distribution of the particles in a filling chain"
+SURE = 5  # standard errors above which a change is significant
 UNITS = {"weighted_density": "1", "error": "1", "momentum": "momentum"}
 
 FRONT = style.points("o", style.BLACK, "white")
@@ -66,7 +67,7 @@ def number_bins(axes: Axes, result: Result) -> None:
 def is_filling(result: Result) -> bool:
     """Whether the height above the front still grows."""
     height = result["plateau"]
-    return bool(height.mean[-1] - height.mean[0] > 5 * np.hypot(*height.error[[0, -1]]))
+    return bool(height.mean[-1] - height.mean[0] > SURE * np.hypot(*height.error[[0, -1]]))
 
 
 def caption(results: Sequence[Result]) -> str:
@@ -76,9 +77,8 @@ def caption(results: Sequence[Result]) -> str:
         middle: logarithmic bins, summed over both signs of p, with p₀(t) (circles). At λ = {spacing} the
         height above p₀ is {first} at the first time and {last} at the last. Bottom: p₀ divided by λ/(et),
         its value for a stationary flux. At λ = {filling} the chain still fills."""
-    spacing = run_parameters.spacing(chain)[1]
-    filling_at = listed(filling) if filling else None
-    return fill(text, spacing=spacing, first=first, last=last, filling=filling_at)
+    spacings = {"spacing": run_parameters.spacing(chain)[1], "filling": listed(filling) if filling else None}
+    return fill(text, first=first, last=last, **spacings)
 
 
 @plots("unit-spacing unit-chain", varied="cell_length")

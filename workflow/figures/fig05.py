@@ -23,13 +23,13 @@ LOOKS = {
     "zero-momentum": style.points("s", style.VERMILLION, "white", label=r"$n = {}$, $\Pi = 0$"),
     "dense": style.points("^", style.GREEN, label=r"$n = {}$, random $\Pi$"),
 }
-COLD = 0.8  # energy of a scatterer over that of a particle as they meet: below it scatterers have not relaxed
+RELAXED = 0.8  # least energy of a relaxed scatterer, over that of a particle, as they meet
 
 
-def is_cold(result: Result) -> bool:
-    """Whether the scatterers have not relaxed. At σ = ±1 they have no energy, or keep theirs."""
-    energies = [float(result[f"{one}_energy"].mean) for one in ("scatterer", "particle")]
-    return bool(abs(result.parameters["sigma"]) < 1 and energies[0] < COLD * energies[1])
+def has_relaxed(result: Result) -> bool:
+    """Whether the scatterers have relaxed. At σ = ±1 they have no energy, or keep theirs."""
+    scatterer, particle = (float(result[f"{one}_energy"].mean) for one in ("scatterer", "particle"))
+    return bool(abs(result.parameters["sigma"]) == 1 or scatterer >= RELAXED * particle)
 
 
 def at_momentum(result: Result) -> float:
@@ -38,7 +38,7 @@ def at_momentum(result: Result) -> float:
     particles. At σ = 0 nothing relaxes, as momenta are only exchanged."""
     sigma, cells = float(result.parameters["sigma"]), int(result.parameters["cells"])
     # The total momentum is that of the particles if scatterers start at rest.
-    if sigma in (-1, 0, 1) or is_cold(result) or not holds([result], scatterer_temperature=0):
+    if sigma in (-1, 0, 1) or not has_relaxed(result) or not holds([result], scatterer_temperature=0):
         return np.nan
     energy = cells * result.parameters["particles_per_cell"] * float(result.parameters["temperature"])  # 2 E
     temperature = float(result["particle_energy"].mean + result["scatterer_energy"].mean)
@@ -58,7 +58,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "at_momentum": at_momentum(result),
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
-            "cold": is_cold(result),
+            "relaxed": has_relaxed(result),
             "replicas": int(result["mu"].replicas),
             "usable": result.usable,
         }
@@ -72,11 +72,11 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 def caption(table: pd.DataFrame) -> str:
     largest = {}
-    for name, part in table[~table.cold].groupby("series"):
+    for name, part in table[table.relaxed].groupby("series"):
         far = part.loc[part.deviation.abs().idxmax()]
         largest[name] = format_with_error(abs(far.deviation), far.mu_error)
-    sigmas = listed(map(format_number, sorted({*table[table.cold].sigma}))) if table.cold.any() else ""
-    but = f" except at σ = {sigmas}, where heavy scatterers have not relaxed" if sigmas else ""
+    others = [*map(format_number, sorted({*table[~table.relaxed].sigma}))]
+    but = f" except at σ = {listed(others)}, where heavy scatterers have not relaxed" if others else ""
     text = f"""The paper states the probability μ that a particle keeps its direction as an integral, which
         with a missing factor 2 is arccos(σ)/π. (b) Difference from this law: in the paper's ring at most
         {{paper}}{but}. With {{density}} particles per cell it is at most {{dense}}. Dashed: the law
@@ -108,7 +108,7 @@ def draw(results: Sequence[Result]) -> Parts:
     above.plot([], [], color="grey", linestyle=DASHED, label=r"at conserved $\Pi$")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
-    for sigma, part in table[table.cold].groupby("sigma"):
+    for sigma, part in table[~table.relaxed].groupby("sigma"):
         side, lift = ("right", 4) if sigma > 0 else ("left", -4)
         lowest = sigma, 1e3 * part.deviation.min()
         style.name_point(below, "scatterers not relaxed", lowest, (lift, -6), ha=side, va="top")

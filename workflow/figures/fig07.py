@@ -1,4 +1,4 @@
-"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum, also in a
+"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with random total momentum, also in a
 longer ring, and with zero total momentum.
 
 The mean square displacement of the centre of mass is the part due to drift.

@@ -1,4 +1,4 @@
-"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum,
+"""Inset of fig. 7: exponent alpha of the spreading against sigma, with random total momentum,
 with none, and with random directions, of the paper's footnote."""
 
 from collections.abc import Sequence

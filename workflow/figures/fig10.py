@@ -93,14 +93,14 @@ def exponents(result: Result) -> list[str]:
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]
     law = "t^(−2/3)" if run_parameters.gamma(rest) == "N" else "t^(−1)"
-    found = listed(exponents(rest)) if exponents(rest) else None
+    found = exponents(rest)
     names = {-2 / 3: "2/3 (sound)", -1 / 2: "1/2 (shock)", -1: "1"}
     laws = listed(names[slope] for slope in guides(results)) if guides(results) else None
     name = "exponents" if len(guides(results)) > 1 else "exponent"
     text = f"""The paper finds that the height of the moving peak of an energy pulse falls as {law}. (b)
         Exponents fitted over about an octave of time each; if {named_start(rest)}: {{found}}. Dashed guides,
         not fits: {name} {{laws}}."""
-    return fill(text, found=found, laws=laws)
+    return fill(text, found=listed(found) if found else None, laws=laws)
 
 
 def draw(results: Sequence[Result]) -> Parts:

@@ -108,7 +108,7 @@ def _agrees(value: Any, paper: Collection[Any]) -> bool:
 
 
 def _equation(name: str, values: Collection[Any]) -> str:
-    return f"{SYMBOLS.get(name, name.replace('_', ' '))}{' ' if name == 'rule' else ' = '}{as_list(values)}"
+    return f"{SYMBOLS.get(name, name.replace('_', '-'))}{' ' if name == 'rule' else ' = '}{as_list(values)}"
 
 
 def as_list(values: Collection[Any]) -> str:

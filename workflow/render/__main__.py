@@ -64,7 +64,7 @@ def draw(script: str, loaded: Sequence[Result]) -> tuple[Figure, str, Text]:
     added = [f"Not plotted: series {quoted(others)}."] if others else []
     whole = " ".join([caption, *added, *outside(figure), *warnings(shown)])
     parameters = "" if getattr(module, "LABELLED", False) else setting.sentences(shown, script)
-    title = module.TITLE.format(gamma=run_parameters.gamma(loaded[-1]))
+    title = module.TITLE.replace("{gamma}", run_parameters.gamma(loaded[-1]))
     return figure, csv, Text(title, " ".join(whole.split()), parameters)
 
 

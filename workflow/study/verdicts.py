@@ -17,7 +17,6 @@ from matplotlib.lines import Line2D
 from workflow.lib import style
 from workflow.lib.figure import Parts
 from workflow.lib.load import Result
-from workflow.lib.text import listed
 from workflow.study.judge import MEANT, PRINTED, Judgement, judge_all, label
 from workflow.study.results import Results
 from workflow.study.typeset import figure_of, mathtext
@@ -34,6 +33,9 @@ LIMIT = 3.3  # of the frame
 ROW = 0.16  # inches
 NEARLY: style.Look = {"color": "#d9ecf8", "zorder": -2}
 NOT_MEASURED = "not measured"
+CAPTION = """Bars: joint 95 % confidence intervals of the deciding numbers. Grey: acceptance band; light blue:
+    nearly. Unit: half the band, or half the bar if the band has one edge, so that positions compare within a
+    row only. Hollow: as meant. Triangles and cut bars: off the scale."""
 LOOKS = {
     Outcome.REPRODUCED: ("o", style.BLUE),
     Outcome.NEARLY: ("s", style.SKY),
@@ -128,13 +130,6 @@ def label_rows(axes: Axes, table: pd.DataFrame) -> None:
             axes.text(-1.25, y, f"{row.kind}: {text}", style="italic", **across)
 
 
-def caption(table: pd.DataFrame) -> str:
-    counts = listed(f"{(table.verdict == outcome.value).sum()} {outcome.value}" for outcome in Outcome)
-    return f"""{counts}. Bars: joint 95 % confidence intervals of the deciding numbers. Grey: acceptance band;
-        light blue: nearly. Unit: half the band, or half the bar if the band has one edge, so that positions
-        compare within a row only. Triangles and cut bars: off the scale."""
-
-
 def draw(results: Sequence[Result]) -> Parts:
     return plotted(tabulate(judge_all(Results(results))))
 
@@ -154,4 +149,4 @@ def plotted(table: pd.DataFrame) -> Parts:
     looks.append(look_of(Outcome.REPRODUCED, MEANT) | {"label": f"hollow: {MEANT}"})
     handles = [Line2D([], [], **one) for one in looks]
     figure.legend(handles=handles, loc="upper center", ncols=5, borderpad=0.2, columnspacing=1)
-    return figure, table, caption(table)
+    return figure, table, CAPTION

@@ -94,7 +94,7 @@ def spreading_zero(data: Results) -> list[Estimate]:
 
 
 def spreading_with_drift(data: Results) -> list[Estimate]:
-    """alpha for every sigma but 0, with the paper's random total momentum."""
+    """alpha for every sigma but 0, with random total momentum."""
     return _spreading(data, "all", "α")
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 from workflow.lib.load import Result
 from workflow.study.results import Results, by_size, combination, estimate, octaves
-from workflow.study.rings import SIZES, chain, texts
+from workflow.study.rings import SIZES, chain, last_exponent, texts
 from workflow.study.verdict import Estimate
 
 FIRST = 32  # cells from which power laws of kappa are judged: shorter chains consist mainly of their ends
@@ -87,4 +87,4 @@ def _named(ring: Result) -> str:
 
 def _last_time(ring: Result) -> float:
     """Geometric middle of the last octave of time."""
-    return float(ring["local_exponent"].axes["middle"][-1])
+    return last_exponent(ring)[0]

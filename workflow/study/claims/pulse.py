@@ -110,8 +110,8 @@ def damping_fits(data: Results) -> list[Estimate]:
 
 def damping_rare(data: Results) -> list[Estimate]:
     """Damping exponents at gamma = 1 from the paper's start, by octave. In free flight of Gaussian momenta
-    [eq. 44] the cell of the pulse and that of the measurement lower a peak x cells away by 1/(3 x²), of an
-    aged chain by half of this; what the former changes bounds the systematic error."""
+    [eq. 44] the cell of the pulse and that of the measurement lower a peak x cells away by 1/(3 x²), in an
+    aged chain by 1/(6 x²). The change of the exponent by 1/(3 x²) bounds the systematic error."""
     result = data.one("fig09b", PAPERS_START)
     position = result["peak_position"]
     cells = dict(zip(position.axes["time"], position.mean, strict=True))
