@@ -37,7 +37,7 @@ SCRIPT = '''"""A panel of a test."""
 import matplotlib.pyplot as plt
 import pandas as pd
 
-TITLE = "A panel"
+TITLE = "A panel, $t^{2}$"
 
 
 def draw(results):
